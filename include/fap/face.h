@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/** @file
+ * FAPs onto a face: feature-point targets, blend weights, one weighted sum of motion vectors, residual, rigid parts.
+ * A face is opened on a shared bank, owns fixed memory, and poses without allocating. One thread per face.
+ * Source: Zhu 2006 chapter 3; DESIGN.md section 5.
+ */
+#ifndef FAP_FACE_H
+#define FAP_FACE_H
+
+#include <fap/bank.h>
+#include <fap/frame.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fap_face fap_face;
+
+/** How blend weights are found. */
+typedef enum fap_blend {
+    FAP_BLEND_ZHU, /**< the thesis's genetic algorithm, to the letter */
+    FAP_BLEND_QP,  /**< bounded least squares on the units, per axis */
+    FAP_BLEND_GA,  /**< the GA started from the least-squares solution; never worse than it in millimetres */
+} fap_blend;
+
+/** Crossover of the GA. Source: Zhu 2006 eq. 3.4 to 3.6. */
+typedef enum fap_crossover { FAP_CROSSOVER_MIDPOINT, FAP_CROSSOVER_LINE, FAP_CROSSOVER_BLX } fap_crossover;
+
+/** Options; start from fap_face_config_init(). */
+typedef struct fap_face_config {
+    size_t struct_size;
+    fap_blend blend;         /**< FAP_BLEND_GA */
+    fap_crossover crossover; /**< FAP_CROSSOVER_LINE */
+    int generations;         /**< 70 (Zhu 2006 section 3.3) */
+    float emphasis;          /**< c of section 3.4.1: targets times c before blending; 1 */
+    uint64_t seed;           /**< 1; equal seeds give equal bits */
+    int residual;            /**< 1: put every commanded point exactly where the FAPs say */
+    int blink;               /**< 0; 1: blink by itself while the stream drives no lids (Lin et al. 2001 section 5.2) */
+    fap_allocator alloc;
+} fap_face_config;
+
+/** Sets every default. */
+FAP_API void fap_face_config_init(fap_face_config *cfg);
+
+/** What the last pose did. */
+typedef struct fap_face_stats {
+    float target_error_mm;    /**< RMS over commanded axes before the residual */
+    float residual_error_mm;  /**< the same afterwards */
+    float fitness;            /**< mean cosine of Zhu 2006 eq. 3.2 over the points that move; 1 when none moves */
+    int target_count;         /**< commanded point axes */
+} fap_face_stats;
+
+/**
+ * @param bank  kept until close; may be shared
+ * @param cfg   NULL: defaults
+ * @return FAP_OK, FAP_E_ARG (bad config), FAP_E_DATA (the bank lacks what posing needs), FAP_E_NOMEM
+ */
+FAP_API FAP_NODISCARD fap_err fap_face_open(fap_face **face, const fap_bank *bank, const fap_face_config *cfg);
+/** Sets @p *face to NULL; accepts NULL. */
+FAP_API void fap_face_close(fap_face **face);
+/** Floats between the x, y and z rows of position and normal arrays: the mesh's stride. */
+FAP_API size_t fap_face_stride(const fap_face *face);
+
+/**
+ * Pose the face. Depends on @p frame alone, not on earlier calls: seeking and pausing need no care.
+ * FAPs of state FAP_ABSENT leave their axis free; all others are targets. Visemes and expressions are laid down first,
+ * low-level FAPs override them where both speak.
+ * @param position  x[stride] y[stride] z[stride], millimetres, 32-byte aligned
+ * @param normal    the same layout, unit length; NULL: not wanted
+ */
+FAP_API void fap_face_pose(fap_face *face, const fap_frame *frame, float *position, float *normal);
+/** Show key models directly: @p weight[key_count] (bank order); head, eyes and residual stay neutral. */
+FAP_API void fap_face_pose_keys(fap_face *face, const float *weight, float *position, float *normal);
+/** Feature points after the last pose, head axes of the room, millimetres. */
+FAP_API void fap_face_points(const fap_face *face, float points[FAP_POINT_COUNT][3]);
+/** Blend weights of the last pose, bank order, fap_bank_key_count() floats; valid until the next pose. */
+FAP_API const float *fap_face_weights(const fap_face *face);
+FAP_API void fap_face_last_stats(const fap_face *face, fap_face_stats *out);
+
+/**
+ * Where the FAPs of @p frame want the feature points, in neutral head coordinates.
+ * @param target  displacement from neutral along each axis, millimetres
+ * @param wanted  1 where that axis is commanded
+ */
+FAP_API void fap_face_targets(const fap_fapu *fapu, const fap_frame *frame, float target_mm[FAP_POINT_COUNT][3],
+                              uint8_t wanted[FAP_POINT_COUNT][3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

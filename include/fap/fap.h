@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/** @file
+ * All of libfap in one include.
+ */
+#ifndef FAP_FAP_H
+#define FAP_FAP_H
+
+#include <fap/ascii.h>
+#include <fap/bank.h>
+#include <fap/derive.h>
+#include <fap/error.h>
+#include <fap/face.h>
+#include <fap/fapu.h>
+#include <fap/frame.h>
+#include <fap/tables.h>
+#include <fap/version.h>
+
+#endif
