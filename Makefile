@@ -92,20 +92,93 @@ $(B)/fapbank: $(call obj,$(BANK_SRC)) $(B)/libfap-render.a $(BASE)
 	$(Q)$(LINK) $(RENDER_LIBS) $(STUDIO_LIBS) -lm
 
 # --- tests ---------------------------------------------------------------------------------------------------------
+FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildcard tests/fuzz/*.c)))
+REPLAY   := $(FUZZ:%=$(B)/replay/%)
+ALL_LIBS := $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
+
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) -lcmocka $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
+	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
+$(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-render.a $(BASE)
+	$(call SAY,LD)
+	$(Q)$(LINK) $(ALL_LIBS)
 
-test: setup        ## install what is missing, build, fetch the face, run every test
+setup:             ## install the Debian packages that are missing (scripts/packages.txt)
+	$(Q)scripts/setup
+
+test: setup        ## install what is missing, build, run every test
 	+$(Q)$(MAKE) --no-print-directory config=$(config) check
-check: $(B)/unit all face
+check: all face $(B)/unit $(REPLAY) $(B)/examples
 	$(Q)B=$(B) tests/run
-
-unit: $(B)/unit
+unit: $(B)/unit    ## unit tests alone
 	$(Q)$(B)/unit
+asan: setup        ## every test under the address and undefined-behaviour sanitizers
+	+$(Q)$(MAKE) --no-print-directory config=asan check
 
-clean:
+# The documentation's examples must compile against the installed face of the library: headers and libfap.a alone.
+EXAMPLES := $(wildcard docs/examples/*.c)
+$(B)/examples: $(EXAMPLES) $(B)/libfap.a
+	$(Q)mkdir -p $@
+	$(Q)for e in $(EXAMPLES); do $(CC) -std=c11 -Wall -Wextra -Werror $(SAN) -Iinclude -o $@/$$(basename $$e .c) $$e $(B)/libfap.a -lm || exit 1; done
+	$(Q)touch $@
+
+# libFuzzer builds have their own configuration: everything with clang and coverage.
+FUZZ_CC   ?= clang-14
+FUZZ_TIME ?= 60
+fuzz:              ## run every fuzz target for FUZZ_TIME seconds (needs clang)
+	+$(Q)$(MAKE) --no-print-directory config=fuzz CC=$(FUZZ_CC) SAN="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined" CFLAGS="-O1 -g" fuzz-targets
+	$(Q)for t in $(FUZZ); do echo "fuzz $$t"; mkdir -p build/fuzz/found/$$t; \
+	    build/fuzz/fuzz/$$t -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2048 -print_final_stats=0 -verbosity=0 \
+	        -artifact_prefix=build/fuzz/found/$$t/ build/fuzz/found/$$t tests/fuzz/corpus/$$t || exit 1; done
+fuzz-targets: $(FUZZ:%=$(B)/fuzz/%)
+$(B)/fuzz/%: $(B)/tests/fuzz/%.o $(B)/libfap-render.a $(BASE)
+	$(call SAY,LD)
+	$(Q)mkdir -p $(@D) && $(CC) -fsanitize=fuzzer,address,undefined $(CFLAGS) -o $@ $(filter %.o %.a,$^) $(ALL_LIBS)
+
+# --- face, demo, figures -------------------------------------------------------------------------------------------
+face: $(B)/fapbank ## build the default face (build/default.fbank)
+	$(Q)FAPBANK=$(B)/fapbank scripts/make_face build/default.fbank
+
+demo: setup        ## a spoken sentence, from optical markers to a film: build/demo.mp4, build/demo.png
+	+$(Q)$(MAKE) --no-print-directory all face
+	$(Q)B=$(B) scripts/demo
+
+BENCH_SRC := $(wildcard tests/bench/*.c)
+$(B)/bench: $(call obj,$(BENCH_SRC)) $(B)/libfap-render.a $(BASE)
+	$(call SAY,LD)
+	$(Q)$(LINK) $(ALL_LIBS)
+bench: setup       ## the figures: one a line, and build/bench.json
+	+$(Q)$(MAKE) --no-print-directory all face $(B)/bench
+	$(Q)$(B)/bench build/bench.json
+
+# The demo take is committed; this makes it again. Links espeak-ng (GPL), so it is no part of the product.
+$(B)/make_demo_take: tests/assets/make_demo_take.c $(BASE)
+	$(Q)mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(CFLAGS) -o $@ $< $(BASE) -lespeak-ng -lsndfile $(STUDIO_LIBS) -lm
+demo-take: $(B)/make_demo_take face
+	$(Q)$(B)/make_demo_take build/default.fbank tests/assets/demo_take.c3d tests/assets/demo_take.wav
+
+# --- install -------------------------------------------------------------------------------------------------------
+D := $(DESTDIR)
+install: all       ## into DESTDIR, PREFIX: libfap, headers, tools, man pages, libfap.pc, the default face when it is built
+	install -d $(D)$(PREFIX)/bin $(D)$(LIBDIR)/pkgconfig $(D)$(PREFIX)/include/fap/studio $(D)$(PREFIX)/share/man/man1 $(D)$(PREFIX)/share/libfap
+	install -m 755 $(TOOLS) $(D)$(PREFIX)/bin
+	install -m 644 include/fap/*.h $(D)$(PREFIX)/include/fap
+	install -m 644 include/fap/studio/*.h $(D)$(PREFIX)/include/fap/studio
+	install -m 644 $(B)/libfap.a $(B)/libfap-studio.a $(D)$(LIBDIR)
+	install -m 755 $(B)/libfap.so.$(VERSION) $(D)$(LIBDIR)
+	ln -sf libfap.so.$(VERSION) $(D)$(LIBDIR)/libfap.so.$(MAJOR)
+	ln -sf libfap.so.$(MAJOR) $(D)$(LIBDIR)/libfap.so
+	install -m 644 docs/man/*.1 $(D)$(PREFIX)/share/man/man1
+	if [ -f build/default.fbank ]; then install -m 644 build/default.fbank $(D)$(PREFIX)/share/libfap; fi
+	sed 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR)|; s|@VERSION@|$(VERSION)|' scripts/libfap.pc.in >$(D)$(LIBDIR)/pkgconfig/libfap.pc
+
+help:              ## this list
+	@sed -n 's/^\([a-z-]*\):.*## */\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+	@echo "config=asan builds with sanitizers, V=1 shows commands, WERROR=1 makes warnings errors"
+clean:             ## remove everything that was built
 	rm -rf build
+
+.PHONY: fuzz-targets demo-take
 .DELETE_ON_ERROR:
 .SECONDARY:
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * The figures of "make bench". A figure is a function that measures; figures.c lists them in the order they are printed.
+ */
+#ifndef TESTS_BENCH_H
+#define TESTS_BENCH_H
+
+typedef struct bench_figure {
+    const char *name, *unit;
+    double (*measure)(void); /* negative: what it needs is not there */
+    const char *remark;      /* what was measured, on which input */
+    const char *needs;       /* what is missing when it cannot be measured */
+} bench_figure;
+
+extern const bench_figure bench_figures[]; /* ends with a NULL name */
+
+/* Seconds on a monotonic clock. */
+double bench_now_s(void);
+
+#endif
