@@ -17,4 +17,7 @@ extern const bench_figure bench_figures[]; /* ends with a NULL name */
 /* Seconds on a monotonic clock. */
 double bench_now_s(void);
 
+/* Frames of 58 FAPs that the .fap reader takes in a second. */
+double bench_ascii_parse_fps(void);
+
 #endif
