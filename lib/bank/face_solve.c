@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * From commanded rows (one axis of one feature point each) to blend weights, three ways: bounded least
+ * squares on the units, the thesis's genetic algorithm, and that algorithm started from the least-squares
+ * answer. Source: DESIGN.md section 5; Zhu 2006 chapter 3.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "bank/face.h"
+
+static const float weight_max = 1.25f;   /* units may go a little beyond what was modelled */
+static const float most_of_a_key = 4;    /* the thesis sets no bound; absurd targets need one */
+static const double ridge_mm2 = 0.1;     /* decides between equal answers: the smaller weights */
+static const double base_hold_mm2 = 1.0; /* how dearly a viseme or expression yields to low-level FAPs */
+static const float farthest_mm = 150;    /* beyond it a target is noise; keeps sums of squares finite */
+static const float worth_it = 0.02f;     /* share of the error the GA must remove before it is believed ... */
+static const float fully_worth_it = 0.10f; /* ... and before it is believed fully */
+
+static float clampf(float x, float lo, float hi)
+{
+    return fminf(hi, fmaxf(lo, x));
+}
+
+void fap_face_read_targets(fap_face *face, const fap_frame *frame)
+{
+    fap_face_targets(fap_bank_fapu(face->bank), frame, face->target, face->wanted);
+    face->row_count = 0;
+    for (int p = 0; p < FAP_POINT_COUNT; p++)
+        for (int axis = 0; axis < 3; axis++) {
+            float *t = &face->target[p][axis];
+            *t = clampf(*t * face->cfg.emphasis, -farthest_mm, farthest_mm);
+            face->wanted[p][axis] &= face->solvable[p];
+            if (face->wanted[p][axis])
+                face->row[face->row_count++] = (uint16_t)(3 * p + axis);
+        }
+}
+
+/* A mouth that does not quite close, or lids that leave a slit, are seen at once; a cheek half a millimetre
+ * off is not. */
+static float importance(int row)
+{
+    const fap_point_info *info = fap_point_get(row / 3);
+
+    switch (info->group) {
+    case 2: return info->index == 1 ? 1 : info->index == 10 ? 0.5f : row % 3 == 1 ? 4 : 2;
+    case 3: return 4;
+    case 8: return 2;
+    case 5:
+    case 9: return 0.5f;
+    case 10: return 0.25f;
+    default: return 1;
+    }
+}
+
+float fap_face_row_motion(const fap_face *face, int row, const float *weight)
+{
+    const float *motion = face->motion + (size_t)row * (size_t)face->key_count;
+    float sum = 0;
+
+    for (int k = 0; k < face->key_count; k++)
+        sum += motion[k] * weight[k];
+    return sum;
+}
+
+/* What is left of a row's target once gaze and blink have moved it. */
+static float row_target(const fap_face *face, int row)
+{
+    return face->target[row / 3][row % 3] - face->fixed_motion[row];
+}
+
+/* --- least squares
+ * ---------------------------------------------------------------------------------------------- */
+
+static int has_base(const fap_face *face, int key)
+{
+    for (int i = 0; i < face->base_count; i++)
+        if (face->base_key[i] == key)
+            return 1;
+    return 0;
+}
+
+/* How far a viseme's or expression's jaw is open, in units of jawOpen. */
+static double base_jaw(const fap_face *face)
+{
+    const int jaw = face->known.jaw_open, row = 3 * fap_point_by_name("2.1") + 1;
+    const float *motion = face->motion + (size_t)row * (size_t)face->key_count;
+    double sum = 0;
+
+    for (int i = 0; i < face->base_count && jaw >= 0 && motion[jaw] < 0; i++)
+        sum += face->base_weight[i] * fmax(0, motion[face->base_key[i]] / motion[jaw]);
+    return sum;
+}
+
+/*
+ * Lips can only be closed over an open jaw: w(mouthClose) <= w(jawOpen). With jawOpen = s + mouthClose that
+ * is s >= 0, a plain bound, and mouthClose's column becomes "jaw opens behind closed lips". Over the jaw of a
+ * viseme lips close by a variable of its own, mouthClose as it is; its key is marked by adding key_count.
+ */
+static float column(const fap_face *face, const float *motion, int key)
+{
+    const fap_face_keys *k = &face->known;
+
+    if (key >= face->key_count)
+        return motion[key - face->key_count];
+    return motion[key] + (key == k->mouth_close && k->jaw_open >= 0 ? motion[k->jaw_open] : 0);
+}
+
+static void add_variable(fap_face *face, int key, double hi, double ridge, double prior)
+{
+    fap_qp *qp = &face->qp;
+    const size_t i = (size_t)qp->n;
+
+    face->variable[qp->n++] = key;
+    qp->hi[i] = hi;
+    qp->gram[i * (size_t)qp->capacity + i] = ridge;
+    qp->linear[i] = ridge * prior;
+}
+
+static void set_variables(fap_face *face)
+{
+    const int close = face->known.mouth_close;
+
+    fap_qp_clear(&face->qp, face->qp.capacity);
+    face->qp.n = 0;
+    for (int k = 0; k < face->key_count; k++)
+        if (face->free_key[k] && !has_base(face, k))
+            add_variable(face, k, k == close ? 1 : weight_max, ridge_mm2, 0);
+    for (int i = 0; i < face->base_count; i++)
+        add_variable(face, face->base_key[i], face->base_weight[i], base_hold_mm2, face->base_weight[i]);
+    if (close >= 0 && base_jaw(face) > 0)
+        add_variable(face, face->key_count + close, fmin(1, base_jaw(face)), ridge_mm2, 0);
+}
+
+static void add_row(fap_face *face, int row)
+{
+    fap_qp *qp = &face->qp;
+    const float *motion = face->motion + (size_t)row * (size_t)face->key_count;
+    const double importance_ = importance(row), target = row_target(face, row);
+
+    for (int i = 0; i < qp->n; i++) {
+        const double a = importance_ * column(face, motion, face->variable[i]);
+        double *g = qp->gram + (size_t)i * (size_t)qp->capacity;
+        if (a == 0)
+            continue;
+        qp->linear[i] += a * target;
+        for (int j = 0; j < qp->n; j++)
+            g[j] += a * column(face, motion, face->variable[j]);
+    }
+}
+
+static void solve_least_squares(fap_face *face)
+{
+    const fap_face_keys *k = &face->known;
+
+    set_variables(face);
+    for (int r = 0; r < face->row_count; r++)
+        add_row(face, face->row[r]);
+    fap_qp_solve(&face->qp);
+    memset(face->weight, 0, sizeof *face->weight * (size_t)face->key_count);
+    for (int i = 0; i < face->qp.n; i++) {
+        const float x = (float)face->qp.x[i];
+        const int key = face->variable[i] % face->key_count;
+        face->weight[key] += x;
+        if (face->variable[i] == k->mouth_close && k->jaw_open >= 0)
+            face->weight[k->jaw_open] += x;
+    }
+    if (k->jaw_open >= 0)
+        face->weight[k->jaw_open] = fminf(weight_max, face->weight[k->jaw_open]);
+}
+
+/* --- the thesis's way
+ * --------------------------------------------------------------------------------------------- */
+
+/* 3D targets: what viseme and expression ask of a point, overridden where a FAP speaks; unknown axes are 0.
+ */
+static int wanted_vectors(const fap_face *face, int *point, float *vector)
+{
+    int n = 0;
+
+    for (int p = 0; p < FAP_POINT_COUNT; p++) {
+        float *v = vector + 3 * (size_t)n;
+        for (int axis = 0; axis < 3; axis++) {
+            const int row = 3 * p + axis;
+            v[axis] = face->wanted[p][axis] ? row_target(face, row) : 0;
+            for (int i = 0; i < face->base_count && !face->wanted[p][axis]; i++)
+                v[axis] += face->cfg.emphasis * face->base_weight[i] *
+                           face->motion[(size_t)row * (size_t)face->key_count + (size_t)face->base_key[i]];
+        }
+        if (face->solvable[p] && (v[0] != 0 || v[1] != 0 || v[2] != 0))
+            point[n++] = p;
+    }
+    return n;
+}
+
+static int population_moves(const fap_face *face, int p)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const float *motion = face->motion + (size_t)(3 * p + axis) * (size_t)face->key_count;
+        for (int k = 0; k < face->key_count; k++)
+            if (face->population[k] && motion[k] != 0)
+                return 1;
+    }
+    return 0;
+}
+
+/* The thesis's feature points are those its bank moves; the tongue, say, is left out of the fitness here as
+ * there. */
+static int drop_unmoved(const fap_face *face, int *point, float *vector, int n)
+{
+    int kept = 0;
+
+    for (int i = 0; i < n; i++) {
+        if (!population_moves(face, point[i]))
+            continue;
+        memmove(vector + 3 * (size_t)kept, vector + 3 * (size_t)i, 3 * sizeof *vector);
+        point[kept++] = point[i];
+    }
+    return kept;
+}
+
+static void add_population(fap_face *face, const int *point, int n)
+{
+    float *vector, *gene;
+
+    for (int k = 0; k < face->key_count; k++) {
+        if (!face->population[k] || !fap_ga_add(&face->ga, &vector, &gene))
+            continue;
+        gene[k] = 1;
+        for (int i = 0; i < 3 * n; i++)
+            vector[i] =
+                face->motion[(size_t)(3 * point[i / 3] + i % 3) * (size_t)face->key_count + (size_t)k];
+    }
+}
+
+static void solve_zhu(fap_face *face)
+{
+    int point[FAP_POINT_COUNT];
+    float vector[FAP_ROWS + 3], score;
+    const int n = drop_unmoved(face, point, vector, wanted_vectors(face, point, vector));
+
+    memset(face->weight, 0, sizeof *face->weight * (size_t)face->key_count);
+    if (!n)
+        return;
+    fap_ga_clear(&face->ga);
+    add_population(face, point, n);
+    const fap_ga_task task = { .target = vector,
+                               .size = 3 * n,
+                               .cosine = 1,
+                               .crossover = face->cfg.crossover,
+                               .generations = face->cfg.generations,
+                               .seed = face->cfg.seed };
+    const float *gene = fap_ga_run(&face->ga, &task, &score);
+    for (int k = 0; k < face->key_count && gene; k++)
+        face->weight[k] = clampf(gene[k], -most_of_a_key, most_of_a_key);
+}
+
+/* --- the default: the same algorithm, seeded with the exact answer, counting millimetres
+ * ------------------------- */
+
+/* target and importance of the commanded rows */
+static void wanted_rows(const fap_face *face, float *target, float *row_weight)
+{
+    for (int r = 0; r < face->row_count; r++) {
+        target[r] = row_target(face, face->row[r]);
+        row_weight[r] = importance(face->row[r]);
+    }
+}
+
+static float squared_error(const fap_face *face, const float *target, const float *weight,
+                           const float *row_weight)
+{
+    float sum = 0;
+
+    for (int r = 0; r < face->row_count; r++) {
+        const float e = fap_face_row_motion(face, face->row[r], weight) - target[r];
+        sum += (row_weight ? row_weight[r] : 1) * e * e;
+    }
+    return sum;
+}
+
+static void add_individual(fap_face *face, const float *weight, int key)
+{
+    float *vector, *gene;
+
+    if (!fap_ga_add(&face->ga, &vector, &gene))
+        return;
+    if (weight)
+        memcpy(gene, weight, sizeof *gene * (size_t)face->key_count);
+    else
+        gene[key] = 1;
+    for (int r = 0; r < face->row_count; r++)
+        vector[r] = fap_face_row_motion(face, face->row[r], gene);
+}
+
+/*
+ * The exact answer can only be beaten by keys that the units do not span. How far the GA's answer is believed
+ * grows smoothly with what it gains, so that a gain that comes and goes does not make the face twitch; the
+ * error is convex, so part of the way is never worse than the start.
+ */
+static void accept(fap_face *face, const float *gene, float gain, float *mixed)
+{
+    const float t = clampf((gain - worth_it) / (fully_worth_it - worth_it), 0, 1),
+                share = t * t * (3 - 2 * t);
+
+    for (int k = 0; k < face->key_count; k++)
+        mixed[k] = face->weight[k] + share * (gene[k] - face->weight[k]);
+}
+
+static void improve(fap_face *face)
+{
+    float target[FAP_ROWS], row_weight[FAP_ROWS], score;
+    wanted_rows(face, target, row_weight);
+    const float weighted = squared_error(face, target, face->weight, row_weight);
+    const float plain = squared_error(face, target, face->weight, NULL);
+    if (weighted < 1e-4f * (float)face->row_count) /* 10 um: nothing to gain */
+        return;
+
+    fap_ga_clear(&face->ga);
+    add_individual(face, face->weight, -1);
+    for (int k = 0; k < face->key_count; k++)
+        if (face->population[k])
+            add_individual(face, NULL, k);
+    const fap_ga_task task = { .target = target,
+                               .row_weight = row_weight,
+                               .size = face->row_count,
+                               .crossover = face->cfg.crossover,
+                               .generations = face->cfg.generations,
+                               .seed = face->cfg.seed,
+                               .gene_max = weight_max };
+    const float *gene = fap_ga_run(&face->ga, &task, &score);
+    float *mixed = face->ga.gene; /* the first individual's place: the run is over */
+    if (!gene || -score >= weighted * (1 - worth_it))
+        return;
+    accept(face, gene, 1 + score / weighted, mixed);
+    if (squared_error(face, target, mixed, NULL) <= plain)
+        memcpy(face->weight, mixed, sizeof *mixed * (size_t)face->key_count);
+}
+
+/* ------------------------------------------------------------------------------------------------------------------
+ */
+
+static void show_base(fap_face *face)
+{
+    memset(face->weight, 0, sizeof *face->weight * (size_t)face->key_count);
+    for (int i = 0; i < face->base_count; i++)
+        face->weight[face->base_key[i]] = face->base_weight[i];
+}
+
+static void rate(fap_face *face)
+{
+    float target[FAP_ROWS + 3] = { 0 }, got[FAP_ROWS + 3] = { 0 };
+
+    for (int r = 0; r < face->row_count; r++) {
+        const int row = face->row[r];
+        target[row] = face->target[row / 3][row % 3];
+        got[row] = fap_face_row_motion(face, row, face->weight);
+    }
+    face->stats.fitness = fap_ga_cosine(target, got, FAP_ROWS);
+}
+
+void fap_face_solve(fap_face *face)
+{
+    if (!face->row_count)
+        show_base(face);
+    else if (face->cfg.blend == FAP_BLEND_ZHU)
+        solve_zhu(face);
+    else
+        solve_least_squares(face);
+    if (face->row_count && face->cfg.blend == FAP_BLEND_GA)
+        improve(face);
+    for (int k = 0; k < face->key_count; k++)
+        face->weight[k] += face->fixed[k];
+    rate(face);
+}

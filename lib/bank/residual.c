@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Fields are Wendland's C2 function of the distance along the surface, compact so that a frame touches few
+ * vertices. The radii are ours, by region: what must move apart (lids, lips) is kept apart. Source: DESIGN.md
+ * section 5; Wendland 1995 (compactly supported radial functions).
+ */
+#include <math.h>
+#include <string.h>
+
+#include "bank/residual.h"
+#include "base/mem.h"
+
+static const float typical_es_mm = 62; /* radii are for a face with its eyes this far apart */
+static const float least_radius_mm = 5;
+static const float detour_near = 1.15f, detour_far = 1.6f; /* way along the surface : straight line */
+static const double least_pivot = 1e-3;                    /* below it two points are one */
+static const float strongest_mm = 40;                      /* no field folds the face further than this */
+
+/* Points that face one another across a slit: their fields must end before they meet. */
+static const char *const across[][2] = { { "2.2", "2.3" }, { "2.6", "2.8" }, { "2.7", "2.9" },
+                                         { "3.1", "3.3" }, { "3.2", "3.4" }, { "8.1", "8.2" },
+                                         { "8.5", "8.7" }, { "8.6", "8.8" } };
+
+static float group_radius(const fap_point_info *info)
+{
+    switch (info->group) {
+    case 2: return info->index == 1 ? 30 : info->index == 10 ? 20 : 14; /* chin, chin boss, inner lips */
+    case 3: return 13;
+    case 4: return 25;
+    case 5: return 26;
+    case 6: return 25;
+    case 8: return 18;
+    case 9: return 18;
+    case 10: return 20;
+    default: return 0;
+    }
+}
+
+static int opposite_of(int p)
+{
+    for (size_t i = 0; i < sizeof across / sizeof *across; i++)
+        for (int side = 0; side < 2; side++)
+            if (fap_point_by_name(across[i][side]) == p)
+                return fap_point_by_name(across[i][!side]);
+    return -1;
+}
+
+static float nearest_of(const fap_graph *g, const fap_bank_point *point)
+{
+    float least = INFINITY;
+
+    for (uint32_t i = 0; i < point->vertex_count; i++)
+        least = fminf(least, g->distance[g->weld[point->vertex[i]]]);
+    return least;
+}
+
+static float radius_of(const fap_graph *g, const fap_bank *bank, int p, float scale)
+{
+    const int opposite = opposite_of(p);
+    float radius = scale * group_radius(fap_point_get(p));
+
+    if (opposite >= 0)
+        radius = fminf(radius, 0.95f * nearest_of(g, fap_bank_point_get(bank, opposite)));
+    return fmaxf(radius, scale * least_radius_mm);
+}
+
+static float wendland(float t)
+{
+    const float u = 1 - t;
+    return t >= 1 ? 0 : u * u * u * u * (4 * t + 1);
+}
+
+static float straight(const fap_graph *g, uint32_t v, const fap_bank_point *point)
+{
+    float least = INFINITY;
+
+    for (uint32_t i = 0; i < point->vertex_count; i++) {
+        float sum = 0;
+        for (size_t axis = 0; axis < 3; axis++) {
+            const float d =
+                g->position[axis * g->stride + v] - g->position[axis * g->stride + point->vertex[i]];
+            sum += d * d;
+        }
+        least = fminf(least, sum);
+    }
+    return sqrtf(least);
+}
+
+/*
+ * Where the way along the surface is about the straight line, the straight line: it is smooth where
+ * Dijkstra's way follows the grid. Where the way is a detour round a slit, the way.
+ */
+static float smooth_distance(const fap_graph *g, uint32_t v, const fap_bank_point *point)
+{
+    const float way = g->distance[v], line = straight(g, v, point);
+    const float detour = (way - detour_near * line) / ((detour_far - detour_near) * line + 1e-6f);
+    const float t = fminf(1, fmaxf(0, detour));
+
+    return line + (way - line) * t * t * (3 - 2 * t);
+}
+
+static void fill_values(const fap_graph *g, const fap_bank_point *point, float radius,
+                        const uint32_t *follows, float *value)
+{
+    for (uint32_t v = 0; v < g->vertex_count; v++) {
+        const uint32_t w = g->weld[follows[v]];
+        value[v] = isinf(g->distance[w]) ? 0 : wendland(smooth_distance(g, w, point) / radius);
+    }
+}
+
+static int block_moves(const float *value)
+{
+    float sum = 0;
+
+    for (int i = 0; i < FAP_BLOCK; i++)
+        sum += value[i];
+    return sum > 0;
+}
+
+static int pack(fap_field *field, const float *value, uint32_t stride, const fap_allocator *alloc)
+{
+    uint32_t count = 0;
+
+    for (uint32_t v = 0; v < stride; v += FAP_BLOCK)
+        count += (uint32_t)block_moves(value + v);
+    field->block = fap_mem_calloc(alloc, count, sizeof *field->block);
+    field->value = fap_mem_calloc(alloc, count, FAP_BLOCK * sizeof *field->value);
+    if (!field->block || !field->value)
+        return 1;
+    for (uint32_t v = 0; v < stride; v += FAP_BLOCK) {
+        if (!block_moves(value + v))
+            continue;
+        field->block[field->block_count] = (uint16_t)(v / FAP_BLOCK);
+        memcpy(field->value + (size_t)FAP_BLOCK * field->block_count++, value + v, FAP_BLOCK * sizeof *value);
+    }
+    return 0;
+}
+
+static void note_pull(fap_residual *r, const fap_bank *bank, int q, const float *value)
+{
+    for (int p = 0; p < FAP_POINT_COUNT; p++) {
+        const fap_bank_point *point = fap_bank_point_get(bank, p);
+        double sum = 0;
+        for (uint32_t i = 0; i < point->vertex_count; i++)
+            sum += value[point->vertex[i]];
+        r->pull[p][q] = point->vertex_count ? (float)(sum / point->vertex_count) : 0;
+    }
+}
+
+static int open_field(fap_residual *r, fap_graph *g, const fap_bank *bank, int p, const uint32_t *follows,
+                      float *value, const fap_allocator *alloc)
+{
+    const fap_bank_point *point = fap_bank_point_get(bank, p);
+    const float scale = fap_bank_fapu(bank)->es_mm / typical_es_mm,
+                widest = scale * group_radius(fap_point_get(p));
+
+    if (!point->present || !point->vertex_count || !(widest > 0))
+        return 0;
+    fap_graph_flood(g, point->vertex, point->vertex_count, detour_far * widest);
+    fill_values(g, point, radius_of(g, bank, p, scale), follows, value);
+    note_pull(r, bank, p, value);
+    return pack(&r->field[p], value, g->stride, alloc);
+}
+
+int fap_residual_open(fap_residual *r, const fap_bank *bank, fap_graph *graph, const uint32_t *follows,
+                      const fap_allocator *alloc)
+{
+    float *value = fap_mem_calloc(alloc, fap_bank_mesh(bank)->stride, sizeof *value);
+    int failed = !value;
+
+    memset(r, 0, sizeof *r);
+    for (int p = 0; p < FAP_POINT_COUNT && !failed; p++)
+        failed = open_field(r, graph, bank, p, follows, value, alloc);
+    fap_mem_free(alloc, value);
+    return failed;
+}
+
+void fap_residual_close(fap_residual *r, const fap_allocator *alloc)
+{
+    for (int p = 0; p < FAP_POINT_COUNT; p++) {
+        fap_mem_free(alloc, r->field[p].block);
+        fap_mem_free(alloc, r->field[p].value);
+    }
+    memset(r, 0, sizeof *r);
+}
+
+static int list_points(fap_residual *r, const uint8_t *on, const float *error, int *list)
+{
+    int n = 0;
+
+    for (int p = 0; p < FAP_POINT_COUNT; p++)
+        if (on[p] && r->field[p].block_count)
+            list[n++] = p;
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++)
+            r->matrix[i][j] = r->pull[list[i]][list[j]];
+        r->matrix[i][n] = error[list[i]];
+    }
+    return n;
+}
+
+static void swap_rows(double *a, double *b, int n)
+{
+    for (int i = 0; i <= n; i++) {
+        const double t = a[i];
+        a[i] = b[i];
+        b[i] = t;
+    }
+}
+
+static int largest_in_column(fap_residual *r, int column, int from, int n)
+{
+    int best = from;
+
+    for (int i = from + 1; i < n; i++)
+        if (fabs(r->matrix[i][column]) > fabs(r->matrix[best][column]))
+            best = i;
+    return best;
+}
+
+/* Gauss and Jordan: n is a few dozen. Returns how many columns found a pivot; pivot_row[c] is -1 where one
+ * did not. */
+static void eliminate(fap_residual *r, int n, int *pivot_row)
+{
+    int used = 0;
+
+    for (int c = 0; c < n; c++) {
+        const int best = largest_in_column(r, c, used, n);
+        pivot_row[c] = -1;
+        if (used >= n || fabs(r->matrix[best][c]) < least_pivot)
+            continue;
+        swap_rows(r->matrix[used], r->matrix[best], n);
+        for (int i = 0; i < n; i++) {
+            const double f = i == used ? 0 : r->matrix[i][c] / r->matrix[used][c];
+            for (int k = c; k <= n && f != 0; k++)
+                r->matrix[i][k] -= f * r->matrix[used][k];
+        }
+        pivot_row[c] = used++;
+    }
+}
+
+void fap_residual_solve(fap_residual *r, const uint8_t on[FAP_POINT_COUNT],
+                        const float error[FAP_POINT_COUNT], float strength[FAP_POINT_COUNT])
+{
+    int list[FAP_POINT_COUNT], pivot_row[FAP_POINT_COUNT];
+    const int n = list_points(r, on, error, list);
+
+    memset(strength, 0, FAP_POINT_COUNT * sizeof *strength);
+    eliminate(r, n, pivot_row);
+    for (int c = 0; c < n; c++) {
+        const double *row = pivot_row[c] < 0 ? NULL : r->matrix[pivot_row[c]];
+        const float s = row ? (float)(row[n] / row[c]) : 0;
+        strength[list[c]] = fminf(strongest_mm, fmaxf(-strongest_mm, s));
+    }
+}
+
+float fap_residual_pull(const fap_residual *r, int p, const float strength[FAP_POINT_COUNT])
+{
+    float sum = 0;
+
+    for (int q = 0; q < FAP_POINT_COUNT; q++)
+        sum += r->pull[p][q] * strength[q];
+    return sum;
+}
+
+void fap_residual_apply(const fap_residual *r, const fap_dsp *dsp, const float strength[3][FAP_POINT_COUNT],
+                        float *xyz, size_t stride)
+{
+    for (int p = 0; p < FAP_POINT_COUNT; p++) {
+        const fap_field *f = &r->field[p];
+        const float c[3] = { strength[0][p], strength[1][p], strength[2][p] };
+        if (f->block_count && (c[0] != 0 || c[1] != 0 || c[2] != 0))
+            dsp->add_field(xyz, stride, f->block, f->value, f->block_count, c);
+    }
+}

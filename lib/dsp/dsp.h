@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Kernels over vertex blocks: the plain C version of each, and faster ones chosen once by CPU. Arrays are
+ * x[stride] y[stride] z[stride], 32-byte aligned, stride a multiple of 8. Every version gives the same bits
+ * as the C one.
+ */
+#ifndef LIB_DSP_DSP_H
+#define LIB_DSP_DSP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { FAP_CPU_AVX2 = 1 };
+
+typedef struct fap_dsp {
+    /* xyz[axis][8 * block[b] + i] += w * delta[b][axis][i] */
+    void (*add_key)(float *xyz, size_t stride, const uint16_t *block, const int16_t *delta,
+                    size_t block_count, float w);
+    /* xyz[axis][8 * block[b] + i] += c[axis] * field[b][i] */
+    void (*add_field)(float *xyz, size_t stride, const uint16_t *block, const float *field,
+                      size_t block_count, const float c[3]);
+    /* xyz = pivot + m * (xyz - pivot), for n vertices, n a multiple of 8 */
+    void (*rotate)(float *xyz, size_t stride, const float m[3][3], const float pivot[3], size_t n);
+    /* out[t] = (b - a) x (c - a) of each triangle, twice its area long; out[t][3] = 0 */
+    void (*triangle_normals)(float (*out)[4], const float *xyz, size_t stride, const uint32_t *triangle,
+                             size_t count);
+    /* out[v] = sum of normals[index[i]] over start[v] <= i < start[v + 1], for count vertices */
+    void (*sum_normals)(float *out, size_t stride, const float (*normals)[4], const uint32_t *start,
+                        const uint32_t *index, size_t count);
+    /* Unit length, or (0, 0, 1) for what is too short to have a direction; n a multiple of 8. */
+    void (*normalise)(float *xyz, size_t stride, size_t n);
+} fap_dsp;
+
+/* What this machine can do, FAP_CPU_* flags. */
+unsigned fap_cpu_detect(void);
+/* cpu 0: plain C. */
+void fap_dsp_init(fap_dsp *dsp, unsigned cpu);
+/* Replaces the kernels that this CPU has faster ones for; x86/dsp_avx2.c. */
+void fap_dsp_init_x86(fap_dsp *dsp, unsigned cpu);
+
+#endif
