@@ -242,12 +242,12 @@ static double normal(uint64_t *state)
     return sum;
 }
 
-/* The room has z up, and the actor looks along -y, as most studios have it. */
+/* The room has z up, and the actor looks along -y; its origin is on the table before the actor, where the wand lay. */
 static void to_room(const double head[3], float room[3])
 {
     room[0] = (float)(head[0] + 42);
-    room[1] = (float)(-head[2] + 310);
-    room[2] = (float)(head[1] + 1280);
+    room[1] = (float)(-head[2] + 130);
+    room[2] = (float)(head[1] + 150);
 }
 
 static void marker_position(const fap_bank *bank, int point, const double *weight, double out[3])
@@ -274,7 +274,7 @@ static void film(const fap_bank *bank, fap_take *take)
     const float *pivot = fap_bank_point_get(bank, fap_point_by_name("7.1"))->position_mm;
     uint64_t random = 20261123;
 
-    for (size_t f = 0; f < take->frame_count; f++) {
+    for (int f = 0; f < (int)take->frame_count; f++) {
         const double t = (double)f / RATE_HZ;
         double weight[MAX_KEYS], sway[3];
         float rotation[3][3];
@@ -288,9 +288,10 @@ static void film(const fap_bank *bank, fap_take *take)
                 for (int b = 0; b < 3; b++)
                     head[a] += rotation[a][b] * (face[b] - pivot[b]);
             }
-            const size_t i = f * MARKERS + (size_t)m;
-            take->valid[i] = !occluded(m, (int)f);
-            to_room(head, take->xyz_mm[i]);
+            float room[3];
+            to_room(head, room);
+            if (!occluded(m, f))
+                fap_take_set(take, (uint32_t)f, (uint32_t)m, room);
         }
     }
 }
@@ -303,8 +304,7 @@ static fap_err write_take(const fap_take *take, const char *path)
     if (err != FAP_OK)
         return err;
     const fap_writer w = file_writer(out.stream);
-    const fap_c3d_options options = { .processor = FAP_C3D_INTEL, .real = 0 };
-    err = fap_take_write_c3d(take, &w, &options);
+    err = fap_take_write_c3d(take, &w, FAP_C3D_INTEL, 1);
     if (err == FAP_OK)
         return out_file_commit(&out);
     out_file_abandon(&out);
@@ -328,7 +328,6 @@ int main(int argc, char **argv)
 {
     fap_bank *bank = NULL;
     fap_take *take = NULL;
-    const char *labels[MARKERS];
 
     if (argc != 4) {
         fprintf(stderr, "usage: make_demo_take BANK.fbank OUT.c3d OUT.wav\n");
@@ -337,17 +336,18 @@ int main(int argc, char **argv)
     fap_err err = load_bank(&bank, argv[1]);
     if (err == FAP_OK && !speak(argv[3]))
         err = FAP_E_IO;
-    for (int m = 0; m < MARKERS; m++)
-        labels[m] = rig[m].label;
     if (err == FAP_OK)
-        err = fap_take_create(&take, (size_t)((lead_s + spoken.length_s + tail_s) * RATE_HZ), MARKERS, labels, RATE_HZ);
+        err = fap_take_create(&take, MARKERS, (uint32_t)((lead_s + spoken.length_s + tail_s) * RATE_HZ), NULL);
     if (err == FAP_OK) {
+        take->rate_hz = RATE_HZ;
+        for (int m = 0; m < MARKERS; m++)
+            snprintf(take->name[m], FAP_TAKE_NAME_SIZE, "%s", rig[m].label);
         film(bank, take);
         err = write_take(take, argv[2]);
     }
     if (err != FAP_OK)
         fprintf(stderr, "make_demo_take: %s\n", fap_strerror(err));
-    fap_take_free(take);
+    fap_take_close(&take);
     fap_bank_close(&bank);
     return err != FAP_OK;
 }

@@ -3,7 +3,7 @@
 . tests/cli/lib.bash
 take=tests/assets/demo_take.c3d
 
-expect 0 "$B/fapenc" "$take" --fps 25 -o "$T/a.fap"
+expect 0 "$B/fapenc" "$take" --markers tests/assets/demo_markers.csv --fps 25 -o "$T/a.fap"
 says 'rigid'
 says 'FAPU'
 expect 0 "$B/fapenc" inspect "$T/a.fap" --json
@@ -19,17 +19,17 @@ for fap in 3 19 20 31 33 35 48 49 50 51 52 53 54 59 60; do on "$fap" || fail "FA
 for fap in 4 5 43 46 47; do on "$fap" && fail "FAP $fap was invented"; done
 
 # The same take twice gives the same bytes.
-expect 0 "$B/fapenc" "$take" --fps 25 -o "$T/b.fap" --quiet
+expect 0 "$B/fapenc" "$take" --markers tests/assets/demo_markers.csv --fps 25 -o "$T/b.fap" --quiet
 [ ! -s "$T/err" ] || fail "--quiet speaks: $(cat "$T/err")"
 cmp -s <(tail -n +2 "$T/a.fap") <(tail -n +2 "$T/b.fap") || fail "two runs differ"
 
 # Cut short: named, and no output.
 head -c 3000 "$take" >"$T/cut.c3d"
 rm -f "$T/c.fap"
-"$B/fapenc" "$T/cut.c3d" -o "$T/c.fap" >"$T/out" 2>"$T/err" && status=0 || status=$?
+"$B/fapenc" "$T/cut.c3d" --markers tests/assets/demo_markers.csv -o "$T/c.fap" >"$T/out" 2>"$T/err" && status=0 || status=$?
 [ "$status" -le 1 ] || fail "a cut take ends with $status"
 [ "$status" -eq 1 ] && [ -e "$T/c.fap" ] && fail "a failed run left an output"
 
 # An output folder that is not there.
-expect 1 "$B/fapenc" "$take" -o "$T/nowhere/x.fap"
+expect 1 "$B/fapenc" "$take" --markers tests/assets/demo_markers.csv -o "$T/nowhere/x.fap"
 says 'nowhere'

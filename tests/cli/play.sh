@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-2-Clause
 # A stream becomes pictures: offscreen, the same bytes every time, films with sound.
 . tests/cli/lib.bash
-expect 0 "$B/fapenc" tests/assets/demo_take.c3d --fps 25 -o "$T/demo.fap"
+expect 0 "$B/fapenc" tests/assets/demo_take.c3d --markers tests/assets/demo_markers.csv --fps 25 -o "$T/demo.fap"
 play="$B/fapplay $T/demo.fap --bank builtin --size 128x128"
 
 $play --help >/dev/null
