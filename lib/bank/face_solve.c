@@ -9,13 +9,15 @@
 
 #include "bank/face.h"
 
-static const float weight_max = 1.25f;   /* units may go a little beyond what was modelled */
-static const float most_of_a_key = 4;    /* the thesis sets no bound; absurd targets need one */
-static const double ridge_mm2 = 0.1;     /* decides between equal answers: the smaller weights */
-static const double base_hold_mm2 = 1.0; /* how dearly a viseme or expression yields to low-level FAPs */
-static const float farthest_mm = 150;    /* beyond it a target is noise; keeps sums of squares finite */
-static const float worth_it = 0.02f;     /* share of the error the GA must remove before it is believed ... */
-static const float fully_worth_it = 0.10f; /* ... and before it is believed fully */
+static const float weight_max = 1.25f; /* units may go a little beyond what was modelled */
+static const float most_of_a_key = 4;  /* the thesis sets no bound; absurd targets need one */
+static const double ridge_mm2 = 0.1;   /* decides between equal answers: the smaller weights */
+static const double most_unasked = 200;
+static const double close_reluctance = 200;
+static const double base_hold_mm2 = 1.0;     /* how dearly a viseme or expression yields to low-level FAPs */
+static const float farthest_mm = 150;        /* beyond it a target is noise; keeps sums of squares finite */
+static const float worth_it_mm = 0.1f;       /* RMS the GA must gain before it is believed ... */
+static const float fully_worth_it_mm = 0.5f; /* ... and before it is believed fully */
 
 static float clampf(float x, float lo, float hi)
 {
@@ -106,6 +108,32 @@ static float column(const fap_face *face, const float *motion, int key)
     return motion[key] + (key == k->mouth_close && k->jaw_open >= 0 ? motion[k->jaw_open] : 0);
 }
 
+/*
+ * What a key does to points nobody speaks of, against what it does to commanded ones. Brows move the lids a
+ * little, too, but a command to the lids alone should close the eyes and leave the brows in peace.
+ */
+static double unasked(const fap_face *face, int key)
+{
+    double asked = 1e-3, beside = 0;
+
+    for (int row = 0; row < FAP_ROWS; row++) {
+        const double a = column(face, face->motion + (size_t)row * (size_t)face->key_count, key);
+        const uint8_t *w = face->wanted[row / 3];
+        if (w[row % 3])
+            asked += a * a;
+        else if (!w[0] && !w[1] && !w[2])
+            beside += a * a;
+    }
+    return fmin(beside / asked, most_unasked);
+}
+
+/* Jaw down with lips shut is what the standard's open_jaw says to the letter; shown alone, an open mouth is
+ * expected. */
+static double ridge_of(const fap_face *face, int key)
+{
+    return ridge_mm2 * (1 + fmax(unasked(face, key), key == face->known.mouth_close ? close_reluctance : 0));
+}
+
 static void add_variable(fap_face *face, int key, double hi, double ridge, double prior)
 {
     fap_qp *qp = &face->qp;
@@ -125,7 +153,7 @@ static void set_variables(fap_face *face)
     face->qp.n = 0;
     for (int k = 0; k < face->key_count; k++)
         if (face->free_key[k] && !has_base(face, k))
-            add_variable(face, k, k == close ? 1 : weight_max, ridge_mm2, 0);
+            add_variable(face, k, k == close ? 1 : weight_max, ridge_of(face, k), 0);
     for (int i = 0; i < face->base_count; i++)
         add_variable(face, face->base_key[i], face->base_weight[i], base_hold_mm2, face->base_weight[i]);
     if (close >= 0 && base_jaw(face) > 0)
@@ -298,22 +326,27 @@ static void add_individual(fap_face *face, const float *weight, int key)
  * grows smoothly with what it gains, so that a gain that comes and goes does not make the face twitch; the
  * error is convex, so part of the way is never worse than the start.
  */
-static void accept(fap_face *face, const float *gene, float gain, float *mixed)
+static void accept(fap_face *face, const float *gene, float gain_mm, float *mixed)
 {
-    const float t = clampf((gain - worth_it) / (fully_worth_it - worth_it), 0, 1),
-                share = t * t * (3 - 2 * t);
+    const float t = clampf((gain_mm - worth_it_mm) / (fully_worth_it_mm - worth_it_mm), 0, 1);
+    const float share = t * t * (3 - 2 * t);
 
     for (int k = 0; k < face->key_count; k++)
         mixed[k] = face->weight[k] + share * (gene[k] - face->weight[k]);
+}
+
+static float rms(float squared, int count)
+{
+    return sqrtf(squared / (float)count);
 }
 
 static void improve(fap_face *face)
 {
     float target[FAP_ROWS], row_weight[FAP_ROWS], score;
     wanted_rows(face, target, row_weight);
-    const float weighted = squared_error(face, target, face->weight, row_weight);
+    const float before_mm = rms(squared_error(face, target, face->weight, row_weight), face->row_count);
     const float plain = squared_error(face, target, face->weight, NULL);
-    if (weighted < 1e-4f * (float)face->row_count) /* 10 um: nothing to gain */
+    if (before_mm < worth_it_mm)
         return;
 
     fap_ga_clear(&face->ga);
@@ -330,9 +363,9 @@ static void improve(fap_face *face)
                                .gene_max = weight_max };
     const float *gene = fap_ga_run(&face->ga, &task, &score);
     float *mixed = face->ga.gene; /* the first individual's place: the run is over */
-    if (!gene || -score >= weighted * (1 - worth_it))
+    if (!gene)
         return;
-    accept(face, gene, 1 + score / weighted, mixed);
+    accept(face, gene, before_mm - rms(-score, face->row_count), mixed);
     if (squared_error(face, target, mixed, NULL) <= plain)
         memcpy(face->weight, mixed, sizeof *mixed * (size_t)face->key_count);
 }
