@@ -102,6 +102,7 @@ static void read_keys(fap_face *face)
                 face->key[k]->point_mm[row / 3][row % 3];
     }
     find_known_keys(face);
+    fap_face_make_basis(face);
     sort_keys(face);
 }
 
@@ -121,13 +122,17 @@ static fap_err open_keys(fap_face *face)
 
     face->key = fap_mem_calloc(&face->alloc, n, sizeof *face->key);
     face->motion = fap_mem_calloc(&face->alloc, n * FAP_ROWS, sizeof *face->motion);
+    face->basis = fap_mem_calloc(&face->alloc, (n + 1) * FAP_ROWS, sizeof *face->basis);
     face->free_key = fap_mem_calloc(&face->alloc, n, sizeof *face->free_key);
     face->population = fap_mem_calloc(&face->alloc, n, sizeof *face->population);
     face->fixed = fap_mem_calloc(&face->alloc, n, sizeof *face->fixed);
     face->weight = fap_mem_calloc(&face->alloc, n, sizeof *face->weight);
     face->variable = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->variable);
-    if (!face->key || !face->motion || !face->free_key || !face->population || !face->fixed ||
-        !face->weight || !face->variable)
+    face->price = fap_mem_calloc(&face->alloc, 2 * n, sizeof *face->price);
+    face->mover = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->mover);
+    face->reach = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->reach);
+    if (!face->key || !face->motion || !face->basis || !face->free_key || !face->price || !face->mover ||
+        !face->reach || !face->population || !face->fixed || !face->weight || !face->variable)
         return FAP_E_NOMEM;
     read_keys(face);
     if (fap_qp_open(&face->qp, face->key_count + 1, &face->alloc) ||
@@ -161,6 +166,8 @@ static fap_err open_face(fap_face *face)
     fap_face_measure(face, face->mesh->position, face->neutral);
     memcpy(face->point, face->neutral, sizeof face->point);
     sort_points(face);
+    fap_face_find_slits(face);
+    face->chin_row = 3 * fap_point_by_name("2.1") + 1;
     const fap_err err = open_keys(face);
     return err ? err : open_surface(face);
 }
@@ -199,8 +206,8 @@ void fap_face_close(fap_face **face)
     fap_residual_close(&f->residual, &alloc);
     fap_qp_close(&f->qp, &alloc);
     fap_ga_close(&f->ga, &alloc);
-    void *const blocks[] = { f->key,   f->motion, f->free_key, f->population,
-                             f->fixed, f->weight, f->variable, f };
+    void *const blocks[] = { f->key,    f->motion, f->basis, f->free_key, f->population, f->fixed,
+                             f->weight, f->price,  f->mover, f->reach,    f->variable,   f };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         fap_mem_free(&alloc, blocks[i]);
     *face = NULL;

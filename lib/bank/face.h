@@ -15,7 +15,7 @@
 #include "bank/residual.h"
 #include "dsp/dsp.h"
 
-enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4 };
+enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_SLITS = 5 };
 
 /* Keys with a part of their own, by bank index; -1 where the bank has none. */
 typedef struct fap_face_keys {
@@ -46,9 +46,10 @@ struct fap_face {
     /* made at open */
     int key_count;
     const fap_key **key;
-    float *motion;                     /* [FAP_ROWS][key_count]: millimetres per unit of weight */
-    uint8_t *free_key;                 /* [key_count]: a variable of the least-squares problem */
-    uint8_t *population;               /* [key_count]: one of the thesis's population */
+    float *motion;       /* [FAP_ROWS][key_count]: millimetres per unit of weight */
+    float *basis;        /* [FAP_ROWS][key_count + 1]: columns of least squares, see face_solve.c */
+    uint8_t *free_key;   /* [key_count]: a variable of the least-squares problem */
+    uint8_t *population; /* [key_count]: one of the thesis's population */
     uint8_t solvable[FAP_POINT_COUNT]; /* moved by blending and residual; eyeballs are not */
     float neutral[FAP_POINT_COUNT][3];
     fap_face_keys known;
@@ -56,6 +57,8 @@ struct fap_face {
     fap_face_list lower_teeth, tongue, lash;
     uint32_t *follows; /* [vertex_count]: nearest skin vertex of a lash, itself for the rest */
     int *block_level;  /* [stride / FAP_BLOCK]: the head weight all lanes share, -1: they differ */
+    int chin_row;
+    int slit[FAP_SLITS][2]; /* points that must not pass each other: upper, lower */
     float spine[3];
     fap_normals normals;
     fap_residual residual;
@@ -71,8 +74,11 @@ struct fap_face {
     float base_weight[FAP_BASE_MAX]; /* viseme and expression: yield to low-level FAPs */
     float *fixed;                    /* [key_count]: gaze and blink: do not yield */
     float fixed_motion[FAP_ROWS];
-    float *weight;                   /* [key_count]: the answer */
-    int *variable;                   /* [key_count + 1]: key of each variable, see face_solve.c */
+    float *weight; /* [key_count]: the answer */
+    float *price;  /* [2 * key_count]: ridge of each key */
+    int *mover;    /* [key_count + 1]: work of one row, with reach */
+    double *reach;
+    int *variable;                   /* [key_count + 1]: column of each variable */
     float *lift;                     /* [stride]: how far each lid vertex was pushed out */
     float point[FAP_POINT_COUNT][3]; /* in head coordinates while posing, the room's afterwards */
     fap_face_stats stats;
@@ -82,6 +88,8 @@ struct fap_face {
 void fap_face_lay_base(fap_face *face, const fap_frame *frame);
 /* Targets and commanded rows of this frame. */
 void fap_face_read_targets(fap_face *face, const fap_frame *frame);
+/* basis from motion. */
+void fap_face_make_basis(fap_face *face);
 /* weight from rows, base and fixed. */
 void fap_face_solve(fap_face *face);
 /* What @p weight does to a row. */
@@ -89,6 +97,8 @@ float fap_face_row_motion(const fap_face *face, int row, const float *weight);
 
 /* Feature points of @p position: means of their vertices. */
 void fap_face_measure(const fap_face *face, const float *position, float point[FAP_POINT_COUNT][3]);
+/* slit of this face. */
+void fap_face_find_slits(fap_face *face);
 /* Put every commanded point where it should be; face->point must be measured. */
 void fap_face_correct(fap_face *face, float *position);
 

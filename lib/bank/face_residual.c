@@ -12,10 +12,6 @@ static const float farthest_mm = 40; /* no FAP pulls a point further than this f
 static const float apart_near_mm = 4,
                    apart_far_mm = 8; /* lips this far apart in depth pass one another freely */
 
-static const struct slit {
-    const char *upper, *lower;
-} slits[] = { { "2.2", "2.3" }, { "2.6", "2.8" }, { "2.7", "2.9" }, { "3.1", "3.3" }, { "3.2", "3.4" } };
-
 typedef struct plan {
     uint8_t on[3][FAP_POINT_COUNT];
     float error[3][FAP_POINT_COUNT]; /* how far each point still has to go */
@@ -85,9 +81,20 @@ static int part_slits(const fap_face *face, plan *p)
 {
     int changed = 0;
 
-    for (size_t i = 0; i < sizeof slits / sizeof *slits; i++)
-        changed |= part_slit(face, p, fap_point_by_name(slits[i].upper), fap_point_by_name(slits[i].lower));
+    for (int i = 0; i < FAP_SLITS; i++)
+        changed |= part_slit(face, p, face->slit[i][0], face->slit[i][1]);
     return changed;
+}
+
+void fap_face_find_slits(fap_face *face)
+{
+    static const char *const names[FAP_SLITS][2] = {
+        { "2.2", "2.3" }, { "2.6", "2.8" }, { "2.7", "2.9" }, { "3.1", "3.3" }, { "3.2", "3.4" },
+    };
+
+    for (int i = 0; i < FAP_SLITS; i++)
+        for (int side = 0; side < 2; side++)
+            face->slit[i][side] = fap_point_by_name(names[i][side]);
 }
 
 static void solve_axis(fap_face *face, plan *p, int axis)

@@ -11,9 +11,9 @@
 
 static const float weight_max = 1.25f; /* units may go a little beyond what was modelled */
 static const float most_of_a_key = 4;  /* the thesis sets no bound; absurd targets need one */
-static const double ridge_mm2 = 0.1;   /* decides between equal answers: the smaller weights */
-static const double most_unasked = 200;
-static const double close_reluctance = 200;
+static const float ridge_mm2 = 0.1f;   /* decides between equal answers: the smaller weights */
+static const float most_unasked = 200;
+static const float close_price_mm2 = 20;
 static const double base_hold_mm2 = 1.0;     /* how dearly a viseme or expression yields to low-level FAPs */
 static const float farthest_mm = 150;        /* beyond it a target is noise; keeps sums of squares finite */
 static const float worth_it_mm = 0.1f;       /* RMS the GA must gain before it is believed ... */
@@ -85,8 +85,8 @@ static int has_base(const fap_face *face, int key)
 /* How far a viseme's or expression's jaw is open, in units of jawOpen. */
 static double base_jaw(const fap_face *face)
 {
-    const int jaw = face->known.jaw_open, row = 3 * fap_point_by_name("2.1") + 1;
-    const float *motion = face->motion + (size_t)row * (size_t)face->key_count;
+    const int jaw = face->known.jaw_open;
+    const float *motion = face->motion + (size_t)face->chin_row * (size_t)face->key_count;
     double sum = 0;
 
     for (int i = 0; i < face->base_count && jaw >= 0 && motion[jaw] < 0; i++)
@@ -97,49 +97,69 @@ static double base_jaw(const fap_face *face)
 /*
  * Lips can only be closed over an open jaw: w(mouthClose) <= w(jawOpen). With jawOpen = s + mouthClose that
  * is s >= 0, a plain bound, and mouthClose's column becomes "jaw opens behind closed lips". Over the jaw of a
- * viseme lips close by a variable of its own, mouthClose as it is; its key is marked by adding key_count.
+ * viseme lips close by a variable of its own, mouthClose as it is: the extra column at the end.
  */
-static float column(const fap_face *face, const float *motion, int key)
+void fap_face_make_basis(fap_face *face)
 {
     const fap_face_keys *k = &face->known;
+    const size_t n = (size_t)face->key_count;
 
-    if (key >= face->key_count)
-        return motion[key - face->key_count];
-    return motion[key] + (key == k->mouth_close && k->jaw_open >= 0 ? motion[k->jaw_open] : 0);
+    for (size_t row = 0; row < FAP_ROWS; row++) {
+        const float *motion = face->motion + row * n;
+        float *basis = face->basis + row * (n + 1);
+        memcpy(basis, motion, n * sizeof *basis);
+        if (k->mouth_close < 0)
+            continue;
+        basis[n] = motion[k->mouth_close];
+        if (k->jaw_open >= 0)
+            basis[k->mouth_close] += motion[k->jaw_open];
+    }
+}
+
+static const float *basis_row(const fap_face *face, int row)
+{
+    return face->basis + (size_t)row * ((size_t)face->key_count + 1);
+}
+
+static void add_squares(const fap_face *face, int row, float *sum)
+{
+    const float *a = basis_row(face, row);
+
+    for (int k = 0; k < face->key_count; k++)
+        sum[k] += a[k] * a[k];
 }
 
 /*
- * What a key does to points nobody speaks of, against what it does to commanded ones. Brows move the lids a
- * little, too, but a command to the lids alone should close the eyes and leave the brows in peace.
+ * Costs of keys: what a key does to points nobody speaks of, against what it does to commanded ones. Brows
+ * move the lids a little, too, but a command to the lids alone should close the eyes and leave the brows in
+ * peace.
  */
-static double unasked(const fap_face *face, int key)
+static void price_keys(fap_face *face)
 {
-    double asked = 1e-3, beside = 0;
+    float *beside = face->price, *asked = face->price + face->key_count;
 
+    memset(face->price, 0, 2 * sizeof *face->price * (size_t)face->key_count);
     for (int row = 0; row < FAP_ROWS; row++) {
-        const double a = column(face, face->motion + (size_t)row * (size_t)face->key_count, key);
         const uint8_t *w = face->wanted[row / 3];
         if (w[row % 3])
-            asked += a * a;
+            add_squares(face, row, asked);
         else if (!w[0] && !w[1] && !w[2])
-            beside += a * a;
+            add_squares(face, row, beside);
     }
-    return fmin(beside / asked, most_unasked);
+    for (int k = 0; k < face->key_count; k++)
+        face->price[k] = ridge_mm2 * (1 + fminf(beside[k] / (asked[k] + 1e-3f), most_unasked));
+    /* Jaw down with lips shut is open_jaw to the standard's letter; shown alone, an open mouth is expected.
+     */
+    if (face->known.mouth_close >= 0)
+        face->price[face->known.mouth_close] = fmaxf(face->price[face->known.mouth_close], close_price_mm2);
 }
 
-/* Jaw down with lips shut is what the standard's open_jaw says to the letter; shown alone, an open mouth is
- * expected. */
-static double ridge_of(const fap_face *face, int key)
-{
-    return ridge_mm2 * (1 + fmax(unasked(face, key), key == face->known.mouth_close ? close_reluctance : 0));
-}
-
-static void add_variable(fap_face *face, int key, double hi, double ridge, double prior)
+static void add_variable(fap_face *face, int column, double hi, double ridge, double prior)
 {
     fap_qp *qp = &face->qp;
     const size_t i = (size_t)qp->n;
 
-    face->variable[qp->n++] = key;
+    face->variable[qp->n++] = column;
     qp->hi[i] = hi;
     qp->gram[i * (size_t)qp->capacity + i] = ridge;
     qp->linear[i] = ridge * prior;
@@ -149,31 +169,44 @@ static void set_variables(fap_face *face)
 {
     const int close = face->known.mouth_close;
 
+    price_keys(face);
     fap_qp_clear(&face->qp, face->qp.capacity);
     face->qp.n = 0;
     for (int k = 0; k < face->key_count; k++)
         if (face->free_key[k] && !has_base(face, k))
-            add_variable(face, k, k == close ? 1 : weight_max, ridge_of(face, k), 0);
+            add_variable(face, k, k == close ? 1 : weight_max, face->price[k], 0);
     for (int i = 0; i < face->base_count; i++)
         add_variable(face, face->base_key[i], face->base_weight[i], base_hold_mm2, face->base_weight[i]);
     if (close >= 0 && base_jaw(face) > 0)
-        add_variable(face, face->key_count + close, fmin(1, base_jaw(face)), ridge_mm2, 0);
+        add_variable(face, face->key_count, fmin(1, base_jaw(face)), ridge_mm2, 0);
+}
+
+/* The variables that move this row, and how far. */
+static int list_movers(fap_face *face, int row)
+{
+    const float *a = basis_row(face, row);
+    int n = 0;
+
+    for (int i = 0; i < face->qp.n; i++)
+        if (a[face->variable[i]] != 0) {
+            face->mover[n] = i;
+            face->reach[n++] = a[face->variable[i]];
+        }
+    return n;
 }
 
 static void add_row(fap_face *face, int row)
 {
     fap_qp *qp = &face->qp;
-    const float *motion = face->motion + (size_t)row * (size_t)face->key_count;
-    const double importance_ = importance(row), target = row_target(face, row);
+    const int n = list_movers(face, row);
+    const double weight = importance(row), target = row_target(face, row);
 
-    for (int i = 0; i < qp->n; i++) {
-        const double a = importance_ * column(face, motion, face->variable[i]);
-        double *g = qp->gram + (size_t)i * (size_t)qp->capacity;
-        if (a == 0)
-            continue;
-        qp->linear[i] += a * target;
-        for (int j = 0; j < qp->n; j++)
-            g[j] += a * column(face, motion, face->variable[j]);
+    for (int i = 0; i < n; i++) {
+        const double a = weight * face->reach[i];
+        double *g = qp->gram + (size_t)face->mover[i] * (size_t)qp->capacity;
+        qp->linear[face->mover[i]] += a * target;
+        for (int j = 0; j < n; j++)
+            g[face->mover[j]] += a * face->reach[j];
     }
 }
 
@@ -188,9 +221,9 @@ static void solve_least_squares(fap_face *face)
     memset(face->weight, 0, sizeof *face->weight * (size_t)face->key_count);
     for (int i = 0; i < face->qp.n; i++) {
         const float x = (float)face->qp.x[i];
-        const int key = face->variable[i] % face->key_count;
-        face->weight[key] += x;
-        if (face->variable[i] == k->mouth_close && k->jaw_open >= 0)
+        const int column = face->variable[i];
+        face->weight[column < face->key_count ? column : k->mouth_close] += x;
+        if (column == k->mouth_close && k->jaw_open >= 0)
             face->weight[k->jaw_open] += x;
     }
     if (k->jaw_open >= 0)
@@ -307,18 +340,26 @@ static float squared_error(const fap_face *face, const float *target, const floa
     return sum;
 }
 
-static void add_individual(fap_face *face, const float *weight, int key)
+static void add_weights(fap_face *face, const float *weight)
 {
     float *vector, *gene;
 
     if (!fap_ga_add(&face->ga, &vector, &gene))
         return;
-    if (weight)
-        memcpy(gene, weight, sizeof *gene * (size_t)face->key_count);
-    else
-        gene[key] = 1;
+    memcpy(gene, weight, sizeof *gene * (size_t)face->key_count);
     for (int r = 0; r < face->row_count; r++)
-        vector[r] = fap_face_row_motion(face, face->row[r], gene);
+        vector[r] = fap_face_row_motion(face, face->row[r], weight);
+}
+
+static void add_key(fap_face *face, int key)
+{
+    float *vector, *gene;
+
+    if (!fap_ga_add(&face->ga, &vector, &gene))
+        return;
+    gene[key] = 1;
+    for (int r = 0; r < face->row_count; r++)
+        vector[r] = face->motion[(size_t)face->row[r] * (size_t)face->key_count + (size_t)key];
 }
 
 /*
@@ -350,10 +391,10 @@ static void improve(fap_face *face)
         return;
 
     fap_ga_clear(&face->ga);
-    add_individual(face, face->weight, -1);
+    add_weights(face, face->weight);
     for (int k = 0; k < face->key_count; k++)
         if (face->population[k])
-            add_individual(face, NULL, k);
+            add_key(face, k);
     const fap_ga_task task = { .target = target,
                                .row_weight = row_weight,
                                .size = face->row_count,

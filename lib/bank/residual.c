@@ -38,9 +38,11 @@ static float group_radius(const fap_point_info *info)
 
 static int opposite_of(int p)
 {
+    const char *name = fap_point_get(p)->name;
+
     for (size_t i = 0; i < sizeof across / sizeof *across; i++)
         for (int side = 0; side < 2; side++)
-            if (fap_point_by_name(across[i][side]) == p)
+            if (!strcmp(across[i][side], name))
                 return fap_point_by_name(across[i][!side]);
     return -1;
 }
