@@ -18,12 +18,12 @@ typedef struct fap_face fap_face;
 
 /** How blend weights are found. */
 typedef enum fap_blend {
-    FAP_BLEND_ZHU, /**< the thesis's genetic algorithm, to the letter */
-    FAP_BLEND_QP,  /**< bounded least squares on the units, per axis */
+    FAP_BLEND_ZHU, /**< the thesis's genetic algorithm, to the letter, on visemes, expressions and extra keys */
+    FAP_BLEND_QP,  /**< bounded least squares on the units, per axis; on all keys where a bank has no units */
     FAP_BLEND_GA,  /**< the GA started from the least-squares solution; never worse than it in millimetres */
 } fap_blend;
 
-/** Crossover of the GA. Source: Zhu 2006 eq. 3.4 to 3.6. */
+/** Crossover of the GA; BLX with alpha 0.2. Source: Zhu 2006 eq. 3.4 to 3.6. */
 typedef enum fap_crossover { FAP_CROSSOVER_MIDPOINT, FAP_CROSSOVER_LINE, FAP_CROSSOVER_BLX } fap_crossover;
 
 /** Options; start from fap_face_config_init(). */
@@ -31,8 +31,8 @@ typedef struct fap_face_config {
     size_t struct_size;
     fap_blend blend;         /**< FAP_BLEND_GA */
     fap_crossover crossover; /**< FAP_CROSSOVER_LINE */
-    int generations;         /**< 70 (Zhu 2006 section 3.3) */
-    float emphasis;          /**< c of section 3.4.1: targets times c before blending; 1 */
+    int generations;         /**< 70 (Zhu 2006 section 3.3); 0 to 100000 */
+    float emphasis;          /**< c of section 3.4.1: targets times c before blending, 0 to 10; 1 */
     uint64_t seed;           /**< 1; equal seeds give equal bits */
     int residual;            /**< 1: put every commanded point exactly where the FAPs say */
     int blink;               /**< 0; 1: blink by itself while the stream drives no lids (Lin et al. 2001 section 5.2) */
@@ -46,7 +46,8 @@ FAP_API void fap_face_config_init(fap_face_config *cfg);
 typedef struct fap_face_stats {
     float target_error_mm;    /**< RMS over commanded axes before the residual */
     float residual_error_mm;  /**< the same afterwards */
-    float fitness;            /**< mean cosine of Zhu 2006 eq. 3.2 over the points that move; 1 when none moves */
+    float fitness;            /**< mean cosine of Zhu 2006 eq. 3.2 over the points that move, along commanded axes, before
+                                   the residual; 1 when none moves */
     int target_count;         /**< commanded point axes */
 } fap_face_stats;
 
@@ -63,22 +64,28 @@ FAP_API size_t fap_face_stride(const fap_face *face);
 
 /**
  * Pose the face. Depends on @p frame alone, not on earlier calls: seeking and pausing need no care.
- * FAPs of state FAP_ABSENT leave their axis free; all others are targets. Visemes and expressions are laid down first,
- * low-level FAPs override them where both speak.
+ * FAPs of state FAP_ABSENT leave their axis free; all others are targets, absolute from neutral. Visemes and expressions
+ * are laid down first, low-level FAPs override them where both speak. Every value is accepted: absurd ones end in a
+ * distorted face, not in a broken one. With cfg.residual a commanded point is off by no more than rounding, except where
+ * lips or lids would pass each other: they meet in the middle.
  * @param position  x[stride] y[stride] z[stride], millimetres, 32-byte aligned
  * @param normal    the same layout, unit length; NULL: not wanted
  */
 FAP_API void fap_face_pose(fap_face *face, const fap_frame *frame, float *position, float *normal);
-/** Show key models directly: @p weight[key_count] (bank order); head, eyes and residual stay neutral. */
+/** Show key models directly: @p weight[key_count] (bank order), any value; head, eyes and residual stay neutral. */
 FAP_API void fap_face_pose_keys(fap_face *face, const float *weight, float *position, float *normal);
-/** Feature points after the last pose, head axes of the room, millimetres. */
+/**
+ * Feature points after the last pose (neutral before the first), axes of the room, millimetres. A point is the mean of
+ * its vertices; one without vertices follows the head.
+ */
 FAP_API void fap_face_points(const fap_face *face, float points[FAP_POINT_COUNT][3]);
 /** Blend weights of the last pose, bank order, fap_bank_key_count() floats; valid until the next pose. */
 FAP_API const float *fap_face_weights(const fap_face *face);
 FAP_API void fap_face_last_stats(const fap_face *face, fap_face_stats *out);
 
 /**
- * Where the FAPs of @p frame want the feature points, in neutral head coordinates.
+ * Where the FAPs of @p frame want the feature points, in neutral head coordinates. Translations only: eye and head
+ * rotation, pupils and the tongue's curl are no targets.
  * @param target  displacement from neutral along each axis, millimetres
  * @param wanted  1 where that axis is commanded
  */
