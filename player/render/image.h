@@ -36,7 +36,7 @@ int image_same(const image_difference *d);
 
 /* Copies @src into @dst with its top left corner at (x, y), cut at the border. */
 void image_blit(image *dst, const image *src, int x, int y);
-/* Writes ASCII text, 8 * scale pixels a letter, top left corner at (x, y), in @rgb on whatever is there. */
+/* Writes ASCII text, 6 * scale pixels a letter and 7 * scale high, top left corner at (x, y), in @rgb. */
 void image_text(image *dst, int x, int y, int scale, const uint8_t rgb[3], const char *text);
 /* Size in cells of a sheet for @count pictures, as square as it looks good: columns >= rows. */
 void image_sheet_grid(int count, int *columns, int *rows);

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See occlusion.h. */
+#ifdef HAVE_OSMESA
+#include <stdlib.h>
+#include <string.h>
+
+#include <cglm/cglm.h>
+
+#include "player/render/occlusion.h"
+
+enum { SIZE = 384, DIRECTIONS = 48 };
+
+/*
+ * The face as it is measured: jaw and lips a little open, else the inside of the mouth and the rims of the
+ * lips would count as night and stay black when they part.
+ */
+static void open_mouth(const fap_bank *bank, float *position)
+{
+    const fap_mesh *mesh = fap_bank_mesh(bank);
+    const int k = fap_bank_key_find(bank, FAP_KEY_UNIT, "jawOpen");
+    const fap_key *key = fap_bank_key_get(bank, k);
+    const float weight = 0.55f;
+
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        for (int a = 0; a < 3; a++)
+            position[3 * i + (size_t)a] = mesh->position[(size_t)a * mesh->stride + i];
+    for (uint32_t b = 0; key && b < key->block_count; b++)
+        for (int a = 0; a < 3; a++)
+            for (int lane = 0; lane < FAP_BLOCK; lane++) {
+                const size_t v = (size_t)key->block[b] * FAP_BLOCK + (size_t)lane;
+                const int16_t q = key->delta[((size_t)b * 3 + (size_t)a) * FAP_BLOCK + (size_t)lane];
+                if (v < mesh->vertex_count)
+                    position[3 * v + (size_t)a] += weight * key->scale_mm * q;
+            }
+}
+
+/* Directions spread evenly over the sphere by the golden angle. */
+static void direction(int i, vec3 out)
+{
+    const float y = 1 - 2 * (i + 0.5f) / DIRECTIONS, r = sqrtf(1 - y * y), turn = 2.39996323f * i;
+    out[0] = r * cosf(turn);
+    out[1] = y;
+    out[2] = r * sinf(turn);
+}
+
+typedef struct cloud {
+    float *position, *normal; /* x y z a vertex */
+    uint32_t count;
+    vec3 centre;
+    float radius;
+} cloud;
+
+static void measure_bounds(cloud *c)
+{
+    vec3 low, high;
+
+    glm_vec3_copy(c->position, low);
+    glm_vec3_copy(c->position, high);
+    for (uint32_t i = 0; i < c->count; i++) {
+        glm_vec3_minv(low, c->position + 3 * i, low);
+        glm_vec3_maxv(high, c->position + 3 * i, high);
+    }
+    glm_vec3_center(low, high, c->centre);
+    c->radius = fmaxf(1, 0.5f * glm_vec3_distance(low, high));
+}
+
+static void measure_normals(cloud *c, const fap_mesh *mesh)
+{
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *v = mesh->triangle + 3 * (size_t)t;
+        vec3 a, b, n;
+        glm_vec3_sub(c->position + 3 * v[1], c->position + 3 * v[0], a);
+        glm_vec3_sub(c->position + 3 * v[2], c->position + 3 * v[0], b);
+        glm_vec3_cross(a, b, n);
+        for (int i = 0; i < 3; i++)
+            glm_vec3_add(c->normal + 3 * v[i], n, c->normal + 3 * v[i]);
+    }
+    for (uint32_t i = 0; i < c->count; i++)
+        glm_vec3_normalize(c->normal + 3 * i);
+}
+
+static void view_from(const cloud *c, vec3 from, mat4 out)
+{
+    const float r = c->radius;
+    mat4 view, projection;
+    vec3 eye, centre, up = { 0, fabsf(from[1]) < 0.95f, fabsf(from[1]) >= 0.95f };
+
+    glm_vec3_copy((float *)c->centre, centre);
+    glm_vec3_scale(from, 2 * r, eye);
+    glm_vec3_add(eye, centre, eye);
+    glm_lookat(eye, centre, up, view);
+    glm_ortho(-r, r, -r, r, r, 3 * r, projection);
+    glm_mat4_mul(projection, view, out);
+}
+
+/* A vertex counts as seen when it lies at most a hair behind what the picture shows there. */
+static void add_seen(const cloud *c, vec3 from, mat4 view, const float *depth, float *sum, float *seen)
+{
+    const float hair = 0.9f / (2 * c->radius); /* 0.9 mm in depth units, 0..1 over two radii */
+
+    for (uint32_t i = 0; i < c->count; i++) {
+        const float facing = glm_vec3_dot(c->normal + 3 * i, from);
+        if (facing <= 0.02f)
+            continue;
+        /* The sky is brighter than the floor. */
+        const float weight = facing * (0.65f + 0.35f * from[1]);
+        vec3 p;
+        glm_mat4_mulv3(view, c->position + 3 * i, 1, p);
+        const int x = (int)((p[0] * 0.5f + 0.5f) * SIZE), y = (int)((p[1] * 0.5f + 0.5f) * SIZE);
+        sum[i] += weight;
+        if (x < 0 || y < 0 || x >= SIZE || y >= SIZE || p[2] * 0.5f + 0.5f <= depth[y * SIZE + x] + hair)
+            seen[i] += weight;
+    }
+}
+
+static GLuint depth_target(gl_functions *gl)
+{
+    GLuint frame, depth;
+
+    gl->GenFramebuffers(1, &frame);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
+    gl->GenRenderbuffers(1, &depth);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, depth);
+    gl->RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_DEPTH_COMPONENT32F, SIZE, SIZE);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    return frame;
+}
+
+static void draw_depth(gl_functions *gl, GLint uniform, mat4 view, uint32_t triangles, float *depth)
+{
+    gl->UniformMatrix4fv(uniform, 1, GL_FALSE, view[0]);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * triangles), GL_UNSIGNED_INT, NULL);
+    gl->ReadPixels(0, 0, SIZE, SIZE, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
+}
+
+static void look_around(gl_functions *gl, const cloud *c, const fap_mesh *mesh, GLuint index_buffer,
+                        GLuint program, float *depth, float *sum, float *seen)
+{
+    GLuint array, vertices;
+
+    gl->GenVertexArrays(1, &array);
+    gl->BindVertexArray(array);
+    gl->GenBuffers(1, &vertices);
+    gl->BindBuffer(GL_ARRAY_BUFFER, vertices);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(c->count * 3 * sizeof(float)), c->position, GL_STATIC_DRAW);
+    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
+    gl->EnableVertexAttribArray(0);
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer);
+    depth_target(gl);
+    gl->Viewport(0, 0, SIZE, SIZE);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->UseProgram(program);
+    const GLint uniform = gl->GetUniformLocation(program, "view_projection");
+    for (int i = 0; i < DIRECTIONS; i++) {
+        vec3 from;
+        mat4 view;
+        direction(i, from);
+        view_from(c, from, view);
+        draw_depth(gl, uniform, view, mesh->triangle_count, depth);
+        add_seen(c, from, view, depth, sum, seen);
+    }
+}
+
+fap_err occlusion_measure(gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
+                          float *open)
+{
+    const fap_mesh *mesh = fap_bank_mesh(bank);
+    cloud c = { .count = mesh->vertex_count };
+    float *depth = malloc(SIZE * SIZE * sizeof *depth), *sum = calloc(mesh->vertex_count, sizeof *sum);
+
+    c.position = calloc(mesh->vertex_count, 3 * sizeof(float));
+    c.normal = calloc(mesh->vertex_count, 3 * sizeof(float));
+    memset(open, 0, mesh->vertex_count * sizeof *open);
+    const int have = depth && sum && c.position && c.normal;
+    if (have) {
+        open_mouth(bank, c.position);
+        measure_bounds(&c);
+        measure_normals(&c, mesh);
+        look_around(gl, &c, mesh, index_buffer, program, depth, sum, open);
+        for (uint32_t i = 0; i < c.count; i++)
+            open[i] = sum[i] > 0 ? open[i] / sum[i] : 1;
+    }
+    free(c.normal);
+    free(c.position);
+    free(sum);
+    free(depth);
+    return have ? FAP_OK : FAP_E_NOMEM;
+}
+#endif
