@@ -189,34 +189,71 @@ static void turn_about(float p[3], const float m[3][3], const float centre[3])
         p[i] = centre[i] + (m[i][0] * d[0] + m[i][1] * d[1] + m[i][2] * d[2]);
 }
 
-static void turn_ball(const fap_face *face, const fap_face_eye *eye, const float m[3][3], int turns,
-                      float thrust, float *position)
+/* One eyeball of this frame. */
+typedef struct gaze {
+    float turn[3][3];
+    int turns;
+    float thrust, iris, pupil, wide; /* millimetres; radii at rest, and the pupil's now */
+} gaze;
+
+/*
+ * FAPs 29 and 30 count the pupil's diameter. At rest it is a third of the iris (the standard's neutral face),
+ * whose diameter is IRISD0; the ring between pupil and rim of the iris is stretched or squeezed.
+ */
+static gaze read_gaze(const fap_face *face, const fap_frame *frame, int side)
+{
+    const fap_fapu *fapu = fap_bank_fapu(face->bank);
+    const int32_t yaw = angle_of(frame, 23 + side), pitch = angle_of(frame, 25 + side);
+    gaze g = { .turns = yaw || pitch, .thrust = thrust_of(face, frame, side) };
+
+    fap_head_rotation(pitch, yaw, 0, g.turn);
+    g.iris = fminf(fapu->irisd_mm / 2, 0.9f * face->eye[side].radius);
+    g.pupil = g.iris / 3;
+    g.wide = g.pupil + value_of(frame, 29 + side) * fap_fapu_step(fapu, FAP_UNIT_IRISD) / 2;
+    g.wide = fminf(0.9f * g.iris, fmaxf(0.2f * g.pupil, g.wide));
+    return g;
+}
+
+static void dilate(float p[3], const float centre[3], const gaze *g)
+{
+    const float x = p[0] - centre[0], y = p[1] - centre[1], z = p[2] - centre[2], from = hypotf(x, y);
+
+    if (from >= g->iris || from <= 0 || z < 0)
+        return;
+    const float to = from < g->pupil
+                         ? from * g->wide / g->pupil
+                         : g->wide + (from - g->pupil) * (g->iris - g->wide) / (g->iris - g->pupil);
+    p[0] = centre[0] + x * to / from;
+    p[1] = centre[1] + y * to / from;
+    p[2] = centre[2] + sqrtf(fmaxf(0, z * z + from * from - to * to)); /* stays on the ball */
+}
+
+/* Eyeballs are rigid: what keys did to them is undone. */
+static void turn_ball(const fap_face *face, const fap_face_eye *eye, const gaze *g, float *position)
 {
     const size_t stride = face->mesh->stride;
 
     for (uint32_t i = 0; i < eye->ball.count; i++) {
         const uint32_t v = eye->ball.vertex[i];
         float p[3];
-        vertex_at(face->mesh, face->mesh->position, v,
-                  p); /* eyeballs are rigid: what keys did to them is undone */
-        if (turns)
-            turn_about(p, m, eye->centre);
+        vertex_at(face->mesh, face->mesh->position, v, p);
+        if (g->wide != g->pupil)
+            dilate(p, eye->centre, g);
+        if (g->turns)
+            turn_about(p, (const float(*)[3])g->turn, eye->centre);
         position[v] = p[0];
         position[stride + v] = p[1];
-        position[2 * stride + v] = p[2] + thrust;
+        position[2 * stride + v] = p[2] + g->thrust;
     }
 }
 
 void fap_face_turn_eyes(const fap_face *face, const fap_frame *frame, float *position)
 {
     for (int side = 0; side < 2; side++) {
-        const int32_t yaw = angle_of(frame, 23 + side), pitch = angle_of(frame, 25 + side);
-        float m[3][3];
         if (!face->eye[side].present)
             continue;
-        fap_head_rotation(pitch, yaw, 0, m);
-        turn_ball(face, &face->eye[side], (const float(*)[3])m, yaw || pitch, thrust_of(face, frame, side),
-                  position);
+        const gaze g = read_gaze(face, frame, side);
+        turn_ball(face, &face->eye[side], &g, position);
     }
 }
 

@@ -540,6 +540,34 @@ TEST(face, eyeballs_turn_and_keep_their_shape)
     close_rig(&r);
 }
 
+TEST(face, pupils_widen_inside_the_iris_and_stay_on_the_ball)
+{
+    rig r;
+    fap_frame frame = { 0 };
+    float centre[3], radius;
+    int moved_count = 0;
+
+    open_rig(&r, BUILTIN, NULL);
+    if (!fap_bank_eye(r.bank, 1, centre, &radius))
+        skip();
+    const fap_mesh *mesh = fap_bank_mesh(r.bank);
+    command(&frame, 30, 300);
+    pose(&r, &frame);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        const float *p = r.position + v, *q = mesh->position + v;
+        if (mesh->part[v] != FAP_PART_EYE_RIGHT)
+            continue;
+        const float now = hypotf(p[0] - centre[0], p[r.stride] - centre[1]);
+        const float before = hypotf(q[0] - centre[0], q[r.stride] - centre[1]);
+        assert_true(now >= before - 1e-3f);
+        assert_float_equal(hypotf(now, p[2 * r.stride] - centre[2]),
+                           hypotf(before, q[2 * r.stride] - centre[2]), 0.01);
+        moved_count += now > before + 0.05f;
+    }
+    assert_true(moved_count > 0);
+    close_rig(&r);
+}
+
 TEST(face, blinks_by_itself_about_every_two_and_a_half_seconds)
 {
     fap_face_config cfg = config(FAP_BLEND_GA);
