@@ -381,20 +381,44 @@ static float rms(float squared, int count)
     return sqrtf(squared / (float)count);
 }
 
-static void improve(fap_face *face)
+static void seed_population(fap_face *face)
 {
-    float target[FAP_ROWS], row_weight[FAP_ROWS], score;
-    wanted_rows(face, target, row_weight);
-    const float before_mm = rms(squared_error(face, target, face->weight, row_weight), face->row_count);
-    const float plain = squared_error(face, target, face->weight, NULL);
-    if (before_mm < worth_it_mm)
-        return;
-
     fap_ga_clear(&face->ga);
     add_weights(face, face->weight);
     for (int k = 0; k < face->key_count; k++)
         if (face->population[k])
             add_key(face, k);
+}
+
+/* Mean cosine along the commanded axes alone: what nobody asked for is neither right nor wrong. */
+static float fitness_of(const fap_face *face, const float *weight)
+{
+    float target[FAP_ROWS] = { 0 }, got[FAP_ROWS] = { 0 };
+
+    for (int r = 0; r < face->row_count; r++) {
+        const int row = face->row[r];
+        target[row] = row_target(face, row);
+        got[row] = fap_face_row_motion(face, row, weight);
+    }
+    return fap_ga_cosine(target, got, FAP_ROWS);
+}
+
+static void take_if_better(fap_face *face, const float *target, const float *weight)
+{
+    if (squared_error(face, target, weight, NULL) <= squared_error(face, target, face->weight, NULL) &&
+        fitness_of(face, weight) >= fitness_of(face, face->weight))
+        memcpy(face->weight, weight, sizeof *weight * (size_t)face->key_count);
+}
+
+static void improve(fap_face *face)
+{
+    float target[FAP_ROWS], row_weight[FAP_ROWS], score;
+
+    wanted_rows(face, target, row_weight);
+    const float before_mm = rms(squared_error(face, target, face->weight, row_weight), face->row_count);
+    if (before_mm < worth_it_mm)
+        return;
+    seed_population(face);
     const fap_ga_task task = { .target = target,
                                .row_weight = row_weight,
                                .size = face->row_count,
@@ -404,11 +428,8 @@ static void improve(fap_face *face)
                                .gene_max = weight_max };
     const float *gene = fap_ga_run(&face->ga, &task, &score);
     float *mixed = face->ga.gene; /* the first individual's place: the run is over */
-    if (!gene)
-        return;
     accept(face, gene, before_mm - rms(-score, face->row_count), mixed);
-    if (squared_error(face, target, mixed, NULL) <= plain)
-        memcpy(face->weight, mixed, sizeof *mixed * (size_t)face->key_count);
+    take_if_better(face, target, mixed);
 }
 
 /* ------------------------------------------------------------------------------------------------------------------
@@ -421,18 +442,6 @@ static void show_base(fap_face *face)
         face->weight[face->base_key[i]] = face->base_weight[i];
 }
 
-static void rate(fap_face *face)
-{
-    float target[FAP_ROWS + 3] = { 0 }, got[FAP_ROWS + 3] = { 0 };
-
-    for (int r = 0; r < face->row_count; r++) {
-        const int row = face->row[r];
-        target[row] = face->target[row / 3][row % 3];
-        got[row] = fap_face_row_motion(face, row, face->weight);
-    }
-    face->stats.fitness = fap_ga_cosine(target, got, FAP_ROWS);
-}
-
 void fap_face_solve(fap_face *face)
 {
     if (!face->row_count)
@@ -443,7 +452,7 @@ void fap_face_solve(fap_face *face)
         solve_least_squares(face);
     if (face->row_count && face->cfg.blend == FAP_BLEND_GA)
         improve(face);
+    face->stats.fitness = fitness_of(face, face->weight);
     for (int k = 0; k < face->key_count; k++)
         face->weight[k] += face->fixed[k];
-    rate(face);
 }
