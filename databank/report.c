@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See report.h. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "common/json.h"
+#include "common/tool.h"
+#include "databank/report.h"
+
+static const char *const kinds[] = { "viseme", "expression", "extra", "unit" };
+static const char *const parts[] = { "skin",        "eye_left", "eye_right", "teeth_upper",
+                                     "teeth_lower", "tongue",   "lashes" };
+
+typedef struct numbers {
+    int key_count[4], point_count;
+    uint32_t part_count[FAP_PART_COUNT];
+    size_t block_count; /* of all keys */
+} numbers;
+
+static numbers count(const fap_bank *bank)
+{
+    const fap_mesh *m = fap_bank_mesh(bank);
+    numbers n = { 0 };
+
+    for (int k = 0; k < fap_bank_key_count(bank); k++) {
+        n.key_count[fap_bank_key_get(bank, k)->kind]++;
+        n.block_count += fap_bank_key_get(bank, k)->block_count;
+    }
+    for (int p = 0; p < FAP_POINT_COUNT; p++)
+        n.point_count += fap_bank_point_get(bank, p)->present;
+    for (uint32_t v = 0; v < m->vertex_count; v++)
+        n.part_count[m->part[v]]++;
+    return n;
+}
+
+/* The farthest any vertex goes. */
+static double reach_mm(const fap_key *key)
+{
+    int most = 0;
+
+    for (size_t i = 0; i < (size_t)key->block_count * 3 * FAP_BLOCK; i++) {
+        const int d = key->delta[i] < 0 ? -key->delta[i] : key->delta[i];
+        most = d > most ? d : most;
+    }
+    return most * (double)key->scale_mm;
+}
+
+static void print_text(const report *rep, const numbers *n)
+{
+    const fap_mesh *m = fap_bank_mesh(rep->bank);
+    const fap_fapu *u = fap_bank_fapu(rep->bank);
+
+    printf("face         %s\n", fap_bank_name(rep->bank));
+    printf("file         %zu bytes\n", rep->size);
+    printf("vertices     %u", m->vertex_count);
+    for (int p = 0; p < FAP_PART_COUNT; p++)
+        if (n->part_count[p])
+            printf(", %s %u", parts[p], n->part_count[p]);
+    printf("\ntriangles    %u\n", m->triangle_count);
+    printf("points       %d of %d\n", n->point_count, FAP_POINT_COUNT);
+    printf("FAPU         IRISD0 %.2f  ES0 %.2f  ENS0 %.2f  MNS0 %.2f  MW0 %.2f mm\n", u->irisd_mm, u->es_mm,
+           u->ens_mm, u->mns_mm, u->mw_mm);
+    printf("key models   %d visemes, %d expressions, %d extras; %d units; %zu moving blocks\n",
+           n->key_count[0], n->key_count[1], n->key_count[2], n->key_count[3], n->block_count);
+    for (int k = 0; k < fap_bank_key_count(rep->bank); k++) {
+        const fap_key *key = fap_bank_key_get(rep->bank, k);
+        printf("  %-10s %-20s %6u blocks, up to %5.1f mm\n", kinds[key->kind], key->name, key->block_count,
+               reach_mm(key));
+    }
+}
+
+static void put_fapu(json *j, const fap_fapu *u)
+{
+    json_open(j, "fapu_mm", '{');
+    json_number(j, "irisd", u->irisd_mm);
+    json_number(j, "es", u->es_mm);
+    json_number(j, "ens", u->ens_mm);
+    json_number(j, "mns", u->mns_mm);
+    json_number(j, "mw", u->mw_mm);
+    json_close(j, '}');
+}
+
+static void put_keys(json *j, const fap_bank *bank)
+{
+    json_open(j, "keys", '[');
+    for (int k = 0; k < fap_bank_key_count(bank); k++) {
+        const fap_key *key = fap_bank_key_get(bank, k);
+        json_open(j, NULL, '{');
+        json_string(j, "kind", kinds[key->kind]);
+        json_integer(j, "number", key->number);
+        json_string(j, "name", key->name);
+        json_integer(j, "blocks", key->block_count);
+        json_number(j, "reach_mm", reach_mm(key));
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void print_json(const report *rep, const options *opt, const numbers *n)
+{
+    json j = { .out = stdout };
+
+    json_open(&j, NULL, '{');
+    json_string(&j, "name", fap_bank_name(rep->bank));
+    if (opt->output)
+        json_string(&j, "output", opt->output);
+    json_integer(&j, "bytes", (int64_t)rep->size);
+    json_integer(&j, "vertices", fap_bank_mesh(rep->bank)->vertex_count);
+    json_integer(&j, "triangles", fap_bank_mesh(rep->bank)->triangle_count);
+    json_open(&j, "parts", '{');
+    for (int p = 0; p < FAP_PART_COUNT; p++)
+        json_integer(&j, parts[p], n->part_count[p]);
+    json_close(&j, '}');
+    json_integer(&j, "points", n->point_count);
+    put_fapu(&j, fap_bank_fapu(rep->bank));
+    put_keys(&j, rep->bank);
+    json_close(&j, '}');
+}
+
+static void print_success(const report *rep, const options *opt)
+{
+    const numbers n = count(rep->bank);
+
+    if (opt->json)
+        print_json(rep, opt, &n);
+    else if (opt->command == COMMAND_INFO)
+        print_text(rep, &n);
+    else if (strcmp(opt->output, "-"))
+        tool_note("%s: %s, %u vertices, %d key models", opt->output, fap_bank_name(rep->bank),
+                  fap_bank_mesh(rep->bank)->vertex_count, fap_bank_key_count(rep->bank));
+}
+
+static int print_failure(const report *rep, fap_err err)
+{
+    if (rep->missing) {
+        tool_error("this fapbank was built without %s; install it (make setup) and build again",
+                   rep->missing);
+        return EXIT_MISSING;
+    }
+    tool_error("%s: %s", rep->where, err == FAP_E_IO && errno ? strerror(errno) : fap_strerror(err));
+    return err == FAP_E_ARG ? EXIT_USAGE : EXIT_DATA;
+}
+
+int report_print(report *rep, const options *opt, fap_err err)
+{
+    const int status = err ? print_failure(rep, err) : EXIT_OK;
+
+    if (!err)
+        print_success(rep, opt);
+    fap_bank_close(&rep->bank);
+    if (!err && fflush(stdout)) {
+        tool_error("standard output: %s", strerror(errno));
+        return EXIT_DATA;
+    }
+    return status;
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See run.h. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "common/file.h"
+#include "databank/import_makehuman.h"
+#include "databank/run.h"
+#include "databank/sheet.h"
+
+enum { MAX_BANK = 256 << 20 };
+
+static fap_err blame(report *rep, const char *file, fap_err err)
+{
+    if (err)
+        snprintf(rep->where, sizeof rep->where, "%s", file);
+    return err;
+}
+
+static fap_err load_bank(const char *path, report *rep)
+{
+    uint8_t *data;
+
+    if (!strcmp(path, "builtin"))
+        return blame(rep, path, fap_bank_builtin(&rep->bank, NULL));
+    fap_err err = file_read(path, MAX_BANK, &data, &rep->size);
+    if (err)
+        return blame(rep, path, err);
+    err = fap_bank_load(&rep->bank, data, rep->size, NULL);
+    free(data);
+    return blame(rep, path, err);
+}
+
+static fap_err make_builtin(fap_bank_builder **out)
+{
+    fap_bank *bank;
+    fap_err err = fap_bank_builtin(&bank, NULL);
+
+    *out = NULL;
+    if (!err)
+        err = fap_bank_builder_copy(out, bank);
+    fap_bank_close(&bank);
+    return err;
+}
+
+static fap_err make(fap_bank_builder **out, const char *recipe, report *rep)
+{
+    static const char makehuman[] = "makehuman:";
+
+    if (!strcmp(recipe, "builtin"))
+        return blame(rep, recipe, make_builtin(out));
+#if !defined(HAVE_ZLIB)
+    rep->missing = "zlib";
+#elif !defined(HAVE_JPEG)
+    rep->missing = "libjpeg";
+#endif
+    if (rep->missing)
+        return FAP_E_UNSUPPORTED;
+    const size_t prefix = strncmp(recipe, makehuman, sizeof makehuman - 1) ? 0 : sizeof makehuman - 1;
+    return import_makehuman(out, recipe + prefix, rep->where, sizeof rep->where);
+}
+
+/* Bytes of a bank on their way to its file, and once more into memory: what was written is loaded before it
+ * is kept. */
+typedef struct tee {
+    FILE *file;
+    uint8_t *data;
+    size_t size, room;
+} tee;
+
+static int tee_write(void *user, const void *data, size_t size)
+{
+    tee *t = user;
+
+    if (t->size + size > t->room) {
+        const size_t room = 2 * (t->size + size);
+        uint8_t *grown = realloc(t->data, room);
+        if (!grown)
+            return 1;
+        t->data = grown;
+        t->room = room;
+    }
+    memcpy(t->data + t->size, data, size);
+    t->size += size;
+    return fwrite(data, 1, size, t->file) != size;
+}
+
+static fap_err write_bank(fap_bank_builder *b, const options *opt, report *rep)
+{
+    out_file out;
+    fap_err err = out_file_open(&out, opt->output);
+    if (err)
+        return blame(rep, opt->output, err);
+
+    tee t = { .file = out.stream };
+    const fap_writer w = { tee_write, &t };
+    err = fap_bank_builder_write(b, &w);
+    if (!err)
+        err = fap_bank_load(&rep->bank, t.data, t.size, NULL);
+    rep->size = t.size;
+    free(t.data);
+    if (!err)
+        err = out_file_commit(&out);
+    else
+        out_file_abandon(&out);
+    return blame(rep, opt->output, err);
+}
+
+static fap_err build(const options *opt, report *rep)
+{
+    fap_bank_builder *b;
+    fap_err err = make(&b, opt->input, rep);
+
+    if (!err)
+        err = write_bank(b, opt, rep);
+    fap_bank_builder_close(&b);
+    return err;
+}
+
+static fap_err render(const options *opt, report *rep)
+{
+    fap_err err = load_bank(opt->input, rep);
+
+    if (!err)
+        err = blame(rep, opt->output,
+                    sheet_write(rep->bank, opt->output, opt->columns, opt->tile_px, &rep->missing));
+    return err;
+}
+
+fap_err run(const options *opt, report *rep)
+{
+    switch (opt->command) {
+    case COMMAND_BUILD: return build(opt, rep);
+    case COMMAND_INFO: return load_bank(opt->input, rep);
+    case COMMAND_RENDER: return render(opt, rep);
+    }
+    return FAP_E_ARG;
+}
