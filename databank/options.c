@@ -24,6 +24,8 @@ static const char usage[] =
     "  -o, --output=FILE   where to write; \"-\" is standard output\n"
     "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
     "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
+    "      --camera=NAME   front, left, right or three-quarter\n"
+    "      --units         show the units instead of the key models\n"
     "  -j, --json          print a machine-readable report on standard output\n"
     "  -q, --quiet         no notes, no progress\n"
     "  -h, --help          this text\n"
@@ -36,13 +38,19 @@ static const char usage[] =
     "\n"
     "exit status: 0 done, 1 bad data, 2 bad usage, 3 built without what this needs\n";
 
-enum { OPT_COLUMNS = 256, OPT_TILE };
+enum { OPT_COLUMNS = 256, OPT_TILE, OPT_CAMERA, OPT_UNITS };
 
 static const struct option long_options[] = {
-    { "output", required_argument, NULL, 'o' },    { "columns", required_argument, NULL, OPT_COLUMNS },
-    { "tile", required_argument, NULL, OPT_TILE }, { "json", no_argument, NULL, 'j' },
-    { "quiet", no_argument, NULL, 'q' },           { "help", no_argument, NULL, 'h' },
-    { "version", no_argument, NULL, 'V' },         { NULL, 0, NULL, 0 },
+    { "output", required_argument, NULL, 'o' },
+    { "columns", required_argument, NULL, OPT_COLUMNS },
+    { "tile", required_argument, NULL, OPT_TILE },
+    { "json", no_argument, NULL, 'j' },
+    { "camera", required_argument, NULL, OPT_CAMERA },
+    { "units", no_argument, NULL, OPT_UNITS },
+    { "quiet", no_argument, NULL, 'q' },
+    { "help", no_argument, NULL, 'h' },
+    { "version", no_argument, NULL, 'V' },
+    { NULL, 0, NULL, 0 },
 };
 
 static int stop(options *opt, int status)
@@ -68,13 +76,26 @@ static int parse_number(const char *text, int low, int high, int *out)
     return 1;
 }
 
+static int take_camera(options *opt, const char *name)
+{
+    const int camera = render_camera_by_name(name);
+
+    if (camera < 0)
+        return wrong(opt, "no such camera: ", name);
+    opt->sheet.camera = (render_camera)camera;
+    return 1;
+}
+
 static int take_option(options *opt, int option)
 {
     switch (option) {
     case 'o': opt->output = optarg; return 1;
     case OPT_COLUMNS:
-        return parse_number(optarg, 1, 64, &opt->columns) || wrong(opt, "bad --columns ", optarg);
-    case OPT_TILE: return parse_number(optarg, 32, 1024, &opt->tile_px) || wrong(opt, "bad --tile ", optarg);
+        return parse_number(optarg, 1, 64, &opt->sheet.columns) || wrong(opt, "bad --columns ", optarg);
+    case OPT_TILE:
+        return parse_number(optarg, 32, 1024, &opt->sheet.tile_px) || wrong(opt, "bad --tile ", optarg);
+    case OPT_CAMERA: return take_camera(opt, optarg);
+    case OPT_UNITS: opt->sheet.units = 1; return 1;
     case 'j': opt->json = 1; return 1;
     case 'q': tool_quiet = 1; return 1;
     case 'h': fputs(usage, stdout); return stop(opt, EXIT_OK);
@@ -118,7 +139,7 @@ int options_parse(options *opt, int argc, char **argv)
 {
     int option;
 
-    *opt = (options){ .columns = 8, .tile_px = 220 };
+    *opt = (options){ .sheet = { 8, 220, 0, CAMERA_FRONT } };
     while ((option = getopt_long(argc, argv, "o:jqhV", long_options, NULL)) != -1)
         if (!take_option(opt, option))
             return 0;

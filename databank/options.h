@@ -3,6 +3,8 @@
 #ifndef DATABANK_OPTIONS_H
 #define DATABANK_OPTIONS_H
 
+#include "databank/sheet.h"
+
 typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER } command;
 
 typedef struct options {
@@ -10,8 +12,8 @@ typedef struct options {
     const char *input;  /* recipe or bank */
     const char *output; /* NULL where the command needs none */
     int json;
-    int columns, tile_px; /* of a sheet */
-    int exit_status;      /* when options_parse() says no */
+    sheet_style sheet;
+    int exit_status; /* when options_parse() says no */
 } options;
 
 /* 0: prints --help, --version or what is wrong, and sets exit_status. */

@@ -131,11 +131,15 @@ static void print_success(const report *rep, const options *opt)
                   fap_bank_mesh(rep->bank)->vertex_count, fap_bank_key_count(rep->bank));
 }
 
-static int print_failure(const report *rep, fap_err err)
+static int print_failure(const report *rep, const options *opt, fap_err err)
 {
     if (rep->missing) {
         tool_error("this fapbank was built without %s; install it (make setup) and build again",
                    rep->missing);
+        return EXIT_MISSING;
+    }
+    if (err == FAP_E_UNSUPPORTED && opt->command == COMMAND_RENDER) {
+        tool_error("cannot render: %s", rep->where);
         return EXIT_MISSING;
     }
     tool_error("%s: %s", rep->where, err == FAP_E_IO && errno ? strerror(errno) : fap_strerror(err));
@@ -144,7 +148,7 @@ static int print_failure(const report *rep, fap_err err)
 
 int report_print(report *rep, const options *opt, fap_err err)
 {
-    const int status = err ? print_failure(rep, err) : EXIT_OK;
+    const int status = err ? print_failure(rep, opt, err) : EXIT_OK;
 
     if (!err)
         print_success(rep, opt);

@@ -121,12 +121,9 @@ static fap_err build(const options *opt, report *rep)
 
 static fap_err render(const options *opt, report *rep)
 {
-    fap_err err = load_bank(opt->input, rep);
+    const fap_err err = load_bank(opt->input, rep);
 
-    if (!err)
-        err = blame(rep, opt->output,
-                    sheet_write(rep->bank, opt->output, opt->columns, opt->tile_px, &rep->missing));
-    return err;
+    return err ? err : sheet_write(rep->bank, opt->output, &opt->sheet, rep->where);
 }
 
 fap_err run(const options *opt, report *rep)

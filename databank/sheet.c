@@ -1,10 +1,152 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See sheet.h. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <fap/face.h>
+
+#include "base/mem.h"
+#include "common/file.h"
+#include "common/tool.h"
 #include "databank/sheet.h"
 
-fap_err sheet_write(const fap_bank *bank, const char *path, int columns, int tile_px, const char **missing)
+enum { LABEL_PX = 7, MARGIN_PX = 4, NEUTRAL = -1 };
+
+typedef struct sheet {
+    const fap_bank *bank;
+    const sheet_style *style;
+    fap_face *face;
+    renderer *renderer;
+    image tile, whole;
+    float *position, *normal, *weight;
+    int drawn;
+    progress progress;
+} sheet;
+
+static int wanted(const sheet *s, int key)
 {
-    (void)bank, (void)path, (void)columns, (void)tile_px;
-    *missing = "OSMesa";
-    return FAP_E_UNSUPPORTED;
+    return key == NEUTRAL || (fap_bank_key_get(s->bank, key)->kind == FAP_KEY_UNIT) == s->style->units;
+}
+
+static int count_wanted(const sheet *s)
+{
+    int count = 0;
+
+    for (int k = NEUTRAL; k < fap_bank_key_count(s->bank); k++)
+        count += wanted(s, k);
+    return count;
+}
+
+static void name_of(const sheet *s, int key, char *out, size_t size)
+{
+    const fap_key *k = key == NEUTRAL ? NULL : fap_bank_key_get(s->bank, key);
+
+    if (k && k->number)
+        snprintf(out, size, "%d %s", k->number, k->name);
+    else
+        snprintf(out, size, "%s", k ? k->name : "neutral");
+}
+
+static fap_err draw(sheet *s, int key)
+{
+    static const uint8_t black[3] = { 0, 0, 0 };
+    const int x = s->drawn % s->style->columns * s->style->tile_px,
+              y = s->drawn / s->style->columns * s->style->tile_px;
+    char name[64];
+
+    if (key != NEUTRAL)
+        s->weight[key] = 1;
+    fap_face_pose_keys(s->face, s->weight, s->position, s->normal);
+    if (key != NEUTRAL)
+        s->weight[key] = 0;
+    const fap_err err = renderer_draw(s->renderer, s->position, s->normal, s->style->camera, &s->tile);
+    if (err)
+        return err;
+    name_of(s, key, name, sizeof name);
+    image_blit(&s->whole, &s->tile, x, y);
+    image_text(&s->whole, x + MARGIN_PX, y + MARGIN_PX,
+               s->style->tile_px >= 24 * LABEL_PX ? 1 + s->style->tile_px / 400 : 1, black, name);
+    progress_step(&s->progress, ++s->drawn);
+    return FAP_OK;
+}
+
+static fap_err draw_all(sheet *s)
+{
+    fap_err err = FAP_OK;
+
+    progress_start(&s->progress, "render", count_wanted(s));
+    for (int k = NEUTRAL; !err && k < fap_bank_key_count(s->bank); k++)
+        if (wanted(s, k))
+            err = draw(s, k);
+    progress_end(&s->progress);
+    return err;
+}
+
+static fap_err open_face(sheet *s)
+{
+    const fap_allocator heap = fap_mem_allocator(NULL);
+    const fap_err err = fap_face_open(&s->face, s->bank, NULL);
+    if (err)
+        return err;
+    const size_t floats = 3 * fap_face_stride(s->face);
+    s->position = fap_mem_calloc_aligned(&heap, floats, sizeof *s->position);
+    s->normal = fap_mem_calloc_aligned(&heap, floats, sizeof *s->normal);
+    s->weight = calloc((size_t)fap_bank_key_count(s->bank) + 1, sizeof *s->weight);
+    return s->position && s->normal && s->weight ? FAP_OK : FAP_E_NOMEM;
+}
+
+static fap_err open_pictures(sheet *s, char *where)
+{
+    const int rows = (count_wanted(s) + s->style->columns - 1) / s->style->columns;
+    fap_err err = renderer_create(&s->renderer, s->bank, s->style->tile_px, s->style->tile_px, where);
+
+    if (!err)
+        err = image_create(&s->tile, s->style->tile_px, s->style->tile_px);
+    if (!err)
+        err = image_create(&s->whole, s->style->columns * s->style->tile_px, rows * s->style->tile_px);
+    return err;
+}
+
+static void sheet_close(sheet *s)
+{
+    const fap_allocator heap = fap_mem_allocator(NULL);
+
+    renderer_destroy(&s->renderer);
+    image_free(&s->tile);
+    image_free(&s->whole);
+    fap_mem_free_aligned(&heap, s->position);
+    fap_mem_free_aligned(&heap, s->normal);
+    free(s->weight);
+    fap_face_close(&s->face);
+}
+
+static fap_err save(const image *im, const char *path)
+{
+    out_file out;
+    fap_err err = out_file_open(&out, path);
+
+    if (err)
+        return err;
+    err = image_write_png(im, out.stream, 6);
+    if (!err)
+        return out_file_commit(&out);
+    out_file_abandon(&out);
+    return err;
+}
+
+fap_err sheet_write(const fap_bank *bank, const char *path, const sheet_style *style, char *where)
+{
+    sheet s = { .bank = bank, .style = style };
+
+    snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", path);
+    fap_err err = open_face(&s);
+    if (!err)
+        err = open_pictures(&s, where);
+    if (!err)
+        err = draw_all(&s);
+    if (!err)
+        err = save(&s.whole, path);
+    sheet_close(&s);
+    return err;
 }
