@@ -17,6 +17,13 @@ extern const bench_figure bench_figures[]; /* ends with a NULL name */
 /* Seconds on a monotonic clock. */
 double bench_now_s(void);
 
+/* Seconds of take encoded in a second. */
+double bench_encode_x_realtime(void);
+
+/* Pictures a second of a moving face, and what the moving costs against a still one. */
+double bench_play_fps(void);
+double bench_render_overhead(void);
+
 /* Frames of 58 FAPs that the .fap reader takes in a second. */
 double bench_ascii_parse_fps(void);
 

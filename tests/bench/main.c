@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * make bench: prints one figure a line, "NAME VALUE UNIT # remark", and writes the same to the JSON file it is given.
- * Names are stable: people compare them across versions.
+ * make bench: prints one figure a line, "NAME VALUE UNIT # remark", and writes the same to the JSON file it
+ * is given. Names are stable: people compare them across versions.
  */
 #include <stdio.h>
 #include <time.h>
