@@ -47,7 +47,7 @@ static float point_height(const fap_bank *bank, const char *name, float otherwis
 
 void camera_place(const fap_bank *bank, render_camera camera, float aspect, mat4 view_projection, vec3 eye)
 {
-    const float field_degrees = 16, above = 0.13f, below = 0.22f; /* of the head's height */
+    const float field_degrees = 16, above = 0.10f, below = 0.17f; /* of the head's height */
     const fap_mesh *mesh = fap_bank_mesh(bank);
     float low[3], high[3];
 

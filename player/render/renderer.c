@@ -19,7 +19,7 @@ typedef struct moving_vertex {
 
 typedef struct still_vertex {
     uint8_t paint[4];
-    uint8_t open, part, unused[2];
+    uint8_t open, part, head, unused;
 } still_vertex;
 
 struct renderer {
@@ -122,12 +122,13 @@ static fap_err make_face(renderer *r, GLuint depth_program)
             memcpy(still[i].paint, mesh->colour + 4 * (size_t)i, 4);
             still[i].open = (uint8_t)(255 * open[i] + 0.5f);
             still[i].part = mesh->part[i];
+            still[i].head = mesh->head_weight[i];
         }
         gl->BindVertexArray(r->face_array);
         make_buffer(gl, GL_ARRAY_BUFFER, still, mesh->vertex_count * sizeof *still);
         attribute(gl, ATTRIBUTE_PAINT, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof *still,
                   offsetof(still_vertex, paint));
-        attribute(gl, ATTRIBUTE_SURFACE, 2, GL_UNSIGNED_BYTE, GL_FALSE, sizeof *still,
+        attribute(gl, ATTRIBUTE_SURFACE, 3, GL_UNSIGNED_BYTE, GL_FALSE, sizeof *still,
                   offsetof(still_vertex, open));
         r->moving_buffer = make_buffer(gl, GL_ARRAY_BUFFER, NULL, mesh->vertex_count * sizeof(moving_vertex));
         attribute(gl, ATTRIBUTE_POSITION, 3, GL_FLOAT, GL_FALSE, sizeof(moving_vertex),

@@ -26,25 +26,30 @@ static const char background_vertex_source[] =
     "    gl_Position = vec4(at, 0, 1);\n"
     "}\n";
 
+/* The studio behind the face; @at runs from -1 to 1 over the picture. */
+#define STUDIO                                                                           \
+    "vec3 studio(vec2 at) {\n"                                                           \
+    "    vec2 d = at - vec2(-0.1, 0.15);\n"                                              \
+    "    return mix(vec3(0.36, 0.40, 0.45), vec3(0.73, 0.76, 0.79), exp(-0.9 * dot(d, d)));\n" \
+    "}\n"
+
 static const char background_fragment_source[] =
-    "#version 330 core\n"
+    "#version 330 core\n" STUDIO
     "in vec2 at;\n"
     "out vec4 colour;\n"
-    "void main() {\n"
-    "    float glow = exp(-0.9 * dot(at - vec2(-0.1, 0.15), at - vec2(-0.1, 0.15)));\n"
-    "    colour = vec4(mix(vec3(0.36, 0.40, 0.45), vec3(0.73, 0.76, 0.79), glow), 1);\n"
-    "}\n";
+    "void main() { colour = vec4(studio(at), 1); }\n";
 
 static const char face_vertex_source[] =
     "#version 330 core\n"
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
     "layout(location = 2) in vec4 paint;\n"  /* sRGB and gloss */
-    "layout(location = 3) in vec2 surface;\n" /* openness to the sky 0..1, part */
+    "layout(location = 3) in vec3 surface;\n" /* openness to the sky, part, head weight; bytes */
     "uniform mat4 view_projection;\n"
     "out vec3 place, facing;\n"
     "out vec4 tint;\n"
-    "out float open_sky;\n"
+    "out float open_sky, head;\n"
+    "out vec3 on_screen;\n"
     "flat out float part;\n"
     "void main() {\n"
     "    place = position;\n"
@@ -52,14 +57,17 @@ static const char face_vertex_source[] =
     "    tint = vec4(pow(paint.rgb, vec3(2.2)), paint.a);\n"
     "    open_sky = surface.x / 255.0;\n"
     "    part = surface.y;\n"
+    "    head = surface.z / 255.0;\n"
     "    gl_Position = view_projection * vec4(position, 1);\n"
+    "    on_screen = gl_Position.xyw;\n"
     "}\n";
 
 static const char face_fragment_source[] =
-    "#version 330 core\n"
+    "#version 330 core\n" STUDIO
     "in vec3 place, facing;\n"
     "in vec4 tint;\n"
-    "in float open_sky;\n"
+    "in float open_sky, head;\n"
+    "in vec3 on_screen;\n"
     "flat in float part;\n"
     "uniform vec3 eye;\n"
     "out vec4 colour;\n"
@@ -104,7 +112,9 @@ static const char face_fragment_source[] =
     "    }\n"
     "    c = c * 0.74;\n"
     "    c = c * (1 + c * 0.16) / (1 + c * 0.62);\n" /* shoulder: highlights roll off, midtones stay */
-    "    colour = vec4(pow(max(c, 0), vec3(1 / 2.2)), 1);\n"
+    "    /* The mesh ends somewhere down the neck; it fades into the studio before that. */\n"
+    "    vec3 seen = pow(max(c, 0), vec3(1 / 2.2));\n"
+    "    colour = vec4(mix(studio(on_screen.xy / on_screen.z), seen, smoothstep(0.02, 0.45, head)), 1);\n"
     "}\n";
 
 #endif
