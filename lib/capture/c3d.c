@@ -12,6 +12,7 @@
 
 #include "capture/c3d.h"
 #include "capture/take_driver.h"
+#include "capture/text.h"
 
 enum {
     LABEL_PARTS = 1 + FAP_TAKE_MAX_POINTS / 255, /* LABELS, LABELS2 ... of 255 names each */
@@ -353,26 +354,12 @@ static void read_samples(const c3d *c, const uint16_t *column, fap_take *take)
  * ---------------------------------------------------------------------------------------------------------
  */
 
-typedef struct text {
-    const char *start;
-    size_t length;
-} text;
-
-static text trimmed(const uint8_t *data, size_t length)
-{
-    while (length && (data[0] == ' ' || data[0] == 0))
-        data++, length--;
-    while (length && (data[length - 1] == ' ' || data[length - 1] == 0))
-        length--;
-    return (text){ (const char *)data, length };
-}
-
 /* Row @p row of a character array; empty past its end. */
 static text row_of(const record *r, unsigned row)
 {
     if (r->type != -1 || row >= r->dimension[1])
         return (text){ "", 0 };
-    return trimmed(r->data + (size_t)row * r->dimension[0], r->dimension[0]);
+    return text_trim((text){ (const char *)r->data + (size_t)row * r->dimension[0], r->dimension[0] });
 }
 
 /* LABELS holds the first 255, LABELS2 the next, and so on. */
@@ -434,7 +421,7 @@ static void text_parameter(const c3d *c, const char *name, char *out, size_t roo
     *out = '\0';
     if (!find_parameter(c, name, &r) || r.type != -1)
         return;
-    const text t = trimmed(r.data, r.data_size);
+    const text t = text_trim((text){ (const char *)r.data, r.data_size });
     snprintf(out, room, "%.*s", (int)(t.length < room ? t.length : room - 1), t.start);
 }
 

@@ -12,7 +12,7 @@
 #include "capture/take_driver.h"
 
 static const take_driver *const drivers[] = {
-    &take_driver_c3d,
+    &take_driver_c3d, &take_driver_trc, &take_driver_nexus, &take_driver_motive, &take_driver_plain,
 };
 
 /* A coordinate past this is no measurement, and squaring it must not overflow a float. */
