@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/** @file
+ * A marker take to FAPs: cleaning, head motion, neutral frame, FAPU, extraction; and a full account of what
+ * was done. Nothing is invented: a FAP that no marker determines is not in the mask. Sources: ISO/IEC
+ * 14496-2, Annex C; K. S. Arun, T. S. Huang, S. D. Blostein 1987 and B. K. P. Horn 1987 (rigid motion).
+ */
+#ifndef FAP_STUDIO_CAPTURE_H
+#define FAP_STUDIO_CAPTURE_H
+
+#include <fap/fapu.h>
+#include <fap/frame.h>
+#include <fap/studio/clean.h>
+#include <fap/studio/markers.h>
+#include <fap/studio/take.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fap_capture fap_capture;
+
+/** What closes gaps. */
+typedef enum fap_fill {
+    FAP_FILL_NONE,   /**< nothing: the FAP is masked out there */
+    FAP_FILL_SPLINE, /**< gaps up to 0.2 s by a cubic */
+    FAP_FILL_ALL,    /**< longer ones too: the marker stays with the head and eases to its next place */
+} fap_fill;
+
+/** Start from fap_capture_config_init(). */
+typedef struct fap_capture_config {
+    size_t struct_size;
+    double rate_hz;        /**< 25: frames a second of the FAPs */
+    double start_s, end_s; /**< 0, 0: the whole take; seconds from its first frame */
+    int64_t neutral_frame; /**< -1: found; otherwise a frame of the take, the first one is 0 */
+    const char *
+        axes; /**< NULL: found; "x-zy": which axes of the take are the head's x (left), y (up), z (forward) */
+    const char *rigid;    /**< NULL: by the marker set, or found; "A,B,C" */
+    const fap_fapu *fapu; /**< NULL: measured on the neutral frame, as far as it goes */
+    const char *markers;  /**< NULL: built-in sets only; text of a marker table, see fap_markers_map() */
+    size_t markers_size;
+    double smooth_hz; /**< 0: as the rates ask for; > 0: low-pass; < 0: none */
+    fap_fill fill;    /**< FAP_FILL_ALL */
+} fap_capture_config;
+FAP_API void fap_capture_config_init(fap_capture_config *cfg);
+
+/** Where the rigid markers, or a FAPU, came from. */
+typedef enum fap_origin {
+    FAP_ORIGIN_NONE,
+    FAP_ORIGIN_GIVEN,
+    FAP_ORIGIN_SET,
+    FAP_ORIGIN_FOUND,
+    FAP_ORIGIN_MEASURED,
+    FAP_ORIGIN_SCALED
+} fap_origin;
+/** "given", "marker set", "found", "measured", "typical, scaled"; static. */
+FAP_API const char *fap_origin_name(fap_origin origin);
+
+/** One FAP over the whole take. */
+typedef struct fap_capture_fap {
+    uint32_t coded; /**< frames that carry it */
+    int32_t min, max;
+    uint32_t beyond; /**< frames outside the range that Table C-1 gives */
+    int8_t point;    /**< the feature point it was taken from; -1 head rotation */
+    uint8_t near;    /**< 1: from a marker near that point, or from another point that stands in for it */
+} fap_capture_fap;
+
+#define FAP_CAPTURE_MAX_RIGID 16
+
+typedef struct fap_capture_report {
+    const char *format;
+    double take_rate_hz, rate_hz, take_length_s;
+    uint32_t take_frames, take_points, frames;
+    fap_clean_report clean;
+    uint32_t gaps_eased;          /**< long gaps, per feature point */
+    uint32_t frames_without_head; /**< too few rigid markers in sight */
+    fap_origin rigid_origin;
+    uint32_t rigid_count;
+    int16_t rigid[FAP_CAPTURE_MAX_RIGID]; /**< points of the take */
+    double rigid_rms_mm;
+    char axes[16];        /**< nearest axes of the take: "x y z" of the head */
+    double axes_turn_deg; /**< how far the head's axes are turned from those */
+    uint8_t axes_found, sides_swapped;
+    double neutral_s; /**< middle of the neutral stretch, from the start of the take */
+    uint8_t neutral_found;
+    fap_fapu fapu;
+    fap_origin fapu_origin[5]; /**< IRISD, ES, ENS, MNS, MW */
+    double fapu_scale;         /**< measured over typical; 1 where nothing could be measured */
+    fap_capture_fap fap[FAP_COUNT + 1];
+    fap_markers markers;
+    uint32_t note_count;
+    char note[FAP_TAKE_MAX_NOTES][FAP_TAKE_NOTE_SIZE];
+} fap_capture_report;
+
+/**
+ * Encode a take.
+ * @param take  read only; needs a rate
+ * @param cfg   NULL: defaults
+ * @return FAP_OK; FAP_E_NOT_FOUND no known marker; FAP_E_SYNTAX the marker table; FAP_E_ARG an option does
+ * not fit the take; FAP_E_DATA the markers do not form a face; FAP_E_LIMIT; FAP_E_NOMEM. *out is NULL on
+ * error and
+ *         @p where (may be NULL, FAP_ERROR_TEXT_SIZE bytes) says what to do.
+ */
+FAP_API FAP_NODISCARD fap_err fap_capture_encode(fap_capture **out, const fap_take *take,
+                                                 const fap_capture_config *cfg, char *where);
+/** fap_capture_report_get()->frames of them, numbered from 0. */
+FAP_API const fap_frame *fap_capture_frames(const fap_capture *c);
+FAP_API const fap_capture_report *fap_capture_report_get(const fap_capture *c);
+/** Sets @p *c to NULL; accepts NULL. */
+FAP_API void fap_capture_close(fap_capture **c);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

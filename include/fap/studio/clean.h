@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/** @file
+ * A take as it comes from the cameras to a take that can be measured: spikes out, short gaps closed, another
+ * rate. Sources: Hampel 1974 (median and median deviation); zero-phase windowed-sinc resampling.
+ */
+#ifndef FAP_STUDIO_CLEAN_H
+#define FAP_STUDIO_CLEAN_H
+
+#include <fap/studio/take.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Start from fap_clean_config_init(). */
+typedef struct fap_clean_config {
+    size_t struct_size;
+    double spike_mm; /**< 3: nothing closer than this to its neighbours' median is a spike; 0: keep spikes */
+    double gap_s;    /**< 0.2: gaps up to this long are closed by a cubic; 0: keep gaps */
+} fap_clean_config;
+FAP_API void fap_clean_config_init(fap_clean_config *cfg);
+
+/** What was done, in samples and gaps. */
+typedef struct fap_clean_report {
+    uint32_t spikes, gaps_closed, samples_filled, gaps_left;
+} fap_clean_report;
+
+/** Clean in place. @param cfg NULL: defaults. A take without a rate counts as 60 Hz. */
+FAP_API void fap_take_clean(fap_take *take, const fap_clean_config *cfg, fap_clean_report *report);
+
+/**
+ * The same take at another rate, low-passed without shifting it in time. Each unbroken run of a point is
+ * filtered by itself; a gap stays a gap.
+ * @param rate_hz    wanted frames a second
+ * @param cutoff_hz  half-amplitude frequency; 0: none but what the lower of the two rates asks for (0.4 of
+ * it), and the samples themselves where the rates are equal; negative: interpolate only
+ * @return FAP_OK, FAP_E_ARG (a rate is missing or not positive), FAP_E_LIMIT, FAP_E_NOMEM
+ */
+FAP_API FAP_NODISCARD fap_err fap_take_resample(const fap_take *take, double rate_hz, double cutoff_hz,
+                                                fap_take **out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

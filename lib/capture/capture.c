@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * The order of things: crop, clean, resample, map, head, neutral, axes, points, FAPU, FAPs. See
+ * <fap/studio/capture.h>.
+ */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "capture/performance.h"
+
+struct fap_capture {
+    fap_allocator alloc;
+    fap_frame *frames;
+    fap_capture_report report;
+};
+
+void fap_capture_config_init(fap_capture_config *cfg)
+{
+    *cfg = (fap_capture_config){
+        .struct_size = sizeof *cfg, .rate_hz = 25, .neutral_frame = -1, .fill = FAP_FILL_ALL
+    };
+}
+
+const char *fap_origin_name(fap_origin origin)
+{
+    switch (origin) {
+    case FAP_ORIGIN_GIVEN: return "given";
+    case FAP_ORIGIN_SET: return "marker set";
+    case FAP_ORIGIN_FOUND: return "found";
+    case FAP_ORIGIN_MEASURED: return "measured";
+    case FAP_ORIGIN_SCALED: return "typical, scaled";
+    case FAP_ORIGIN_NONE: break;
+    }
+    return "none";
+}
+
+fap_err performance_fail(performance *p, fap_err err, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(p->where, FAP_ERROR_TEXT_SIZE, fmt, args);
+    va_end(args);
+    return err;
+}
+
+void performance_note(performance *p, const char *fmt, ...)
+{
+    if (p->report->note_count == FAP_TAKE_MAX_NOTES)
+        return;
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(p->report->note[p->report->note_count++], FAP_TAKE_NOTE_SIZE, fmt, args);
+    va_end(args);
+}
+
+/* --- preparing the take
+ * ------------------------------------------------------------------------------------------------ */
+
+static fap_err crop(performance *p, const fap_take *take, fap_take **out)
+{
+    const double start = ceil(p->cfg->start_s * take->rate_hz - 1e-6);
+    const double end =
+        p->cfg->end_s > 0 ? floor(p->cfg->end_s * take->rate_hz + 1e-6) + 1 : take->frame_count;
+    const double first = fmax(start, 0), count = fmin(end, take->frame_count) - first;
+
+    if (!(count >= 1))
+        return performance_fail(p, FAP_E_ARG, "--start and --end leave nothing of a take of %.2f s",
+                                take->frame_count / take->rate_hz);
+    const fap_err err = fap_take_create(out, take->point_count, (uint32_t)count, &take->alloc);
+    if (err != FAP_OK)
+        return err;
+    const size_t skip = (size_t)first * take->point_count, samples = (size_t)count * take->point_count;
+    memcpy((*out)->name, take->name, take->point_count * sizeof *take->name);
+    memcpy((*out)->xyz, take->xyz + skip, samples * sizeof *take->xyz);
+    memcpy((*out)->valid, take->valid + skip, samples);
+    (*out)->rate_hz = take->rate_hz;
+    return FAP_OK;
+}
+
+static fap_err prepare(performance *p, const fap_take *take)
+{
+    fap_clean_config clean;
+    fap_take *cropped;
+
+    if (!(take->rate_hz > 0))
+        return performance_fail(p, FAP_E_ARG, "the take does not say its frame rate; give it with --rate");
+    const fap_err err = crop(p, take, &cropped);
+    if (err != FAP_OK)
+        return err;
+    fap_clean_config_init(&clean);
+    if (p->cfg->fill == FAP_FILL_NONE)
+        clean.gap_s = 0;
+    fap_take_clean(cropped, &clean, &p->report->clean);
+    const fap_err resampled = fap_take_resample(cropped, p->cfg->rate_hz, p->cfg->smooth_hz, &p->take);
+    fap_take_close(&cropped);
+    if (resampled != FAP_OK)
+        return performance_fail(p, resampled, "%g frames a second cannot be made of this take",
+                                p->cfg->rate_hz);
+    p->frames = p->take->frame_count;
+    return FAP_OK;
+}
+
+static fap_err make_room(performance *p)
+{
+    const fap_allocator *a = &p->take->alloc;
+
+    p->pose = fap_mem_calloc(a, p->frames, sizeof *p->pose);
+    p->posed = fap_mem_calloc(a, p->frames, 1);
+    p->place = fap_mem_calloc(a, p->take->point_count, sizeof *p->place);
+    p->placed = fap_mem_calloc(a, p->take->point_count, 1);
+    p->point = fap_mem_calloc(a, p->frames, sizeof *p->point);
+    p->seen = fap_mem_calloc(a, p->frames, sizeof *p->seen);
+    p->out = fap_mem_calloc(a, p->frames, sizeof *p->out);
+    return p->pose && p->posed && p->place && p->placed && p->point && p->seen && p->out ? FAP_OK
+                                                                                         : FAP_E_NOMEM;
+}
+
+static void tidy(performance *p)
+{
+    if (!p->take)
+        return;
+    const fap_allocator a = p->take->alloc;
+    fap_mem_free(&a, p->pose);
+    fap_mem_free(&a, p->posed);
+    fap_mem_free(&a, p->place);
+    fap_mem_free(&a, p->placed);
+    fap_mem_free(&a, p->point);
+    fap_mem_free(&a, p->seen);
+    fap_mem_free(&a, p->out);
+    fap_take_close(&p->take);
+}
+
+/* --- the chain
+ * -----------------------------------------------------------------------------------------------------------
+ */
+
+static fap_err map_markers(performance *p)
+{
+    const fap_capture_config *cfg = p->cfg;
+    fap_markers *map = &p->report->markers;
+    const fap_err err = fap_markers_map(map, p->take, cfg->markers, cfg->markers_size, p->where);
+
+    if (err != FAP_OK || !cfg->rigid)
+        return err;
+    return fap_markers_set_rigid(map, p->take, cfg->rigid, p->where);
+}
+
+static fap_err understand_face(performance *p)
+{
+    fap_err err = head_find(p);
+
+    if (err == FAP_OK)
+        err = neutral_find(p);
+    if (err == FAP_OK)
+        err = axes_find(p);
+    if (err != FAP_OK)
+        return err;
+    rings_assign(p);
+    points_place(p);
+    points_ease(p);
+    return fapu_settle(p);
+}
+
+static fap_err encode(performance *p, const fap_take *take)
+{
+    fap_capture_report *r = p->report;
+
+    r->format = take->format;
+    r->take_rate_hz = take->rate_hz;
+    r->take_frames = take->frame_count;
+    r->take_points = take->point_count;
+    r->take_length_s = take->rate_hz > 0 ? take->frame_count / take->rate_hz : 0;
+    r->rate_hz = p->cfg->rate_hz;
+    fap_err err = prepare(p, take);
+    if (err == FAP_OK)
+        err = make_room(p);
+    if (err == FAP_OK)
+        err = map_markers(p);
+    if (err == FAP_OK)
+        err = understand_face(p);
+    if (err != FAP_OK)
+        return err;
+    faps_extract(p);
+    r->frames = p->frames;
+    return FAP_OK;
+}
+
+static int has_faps(const fap_capture_report *r)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (r->fap[fap].coded)
+            return 1;
+    return 0;
+}
+
+fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_capture_config *cfg,
+                           char *where)
+{
+    char text[FAP_ERROR_TEXT_SIZE] = "";
+    fap_capture_config defaults;
+
+    *out = NULL;
+    fap_capture_config_init(&defaults);
+    fap_capture *c = fap_mem_calloc(&take->alloc, 1, sizeof *c);
+    if (!c)
+        return FAP_E_NOMEM;
+    c->alloc = take->alloc;
+    performance p = { .cfg = cfg ? cfg : &defaults, .report = &c->report, .where = text };
+    fap_err err = encode(&p, take);
+    if (err == FAP_OK && !has_faps(&c->report))
+        err = performance_fail(&p, FAP_E_NOT_FOUND, "the markers are known, but none of them carries a FAP");
+    if (err == FAP_OK) {
+        c->frames = p.out;
+        p.out = NULL;
+        *out = c;
+    } else {
+        fap_mem_free(&take->alloc, c);
+        if (where)
+            memcpy(where, text, sizeof text);
+    }
+    tidy(&p);
+    return err;
+}
+
+const fap_frame *fap_capture_frames(const fap_capture *c)
+{
+    return c->frames;
+}
+
+const fap_capture_report *fap_capture_report_get(const fap_capture *c)
+{
+    return &c->report;
+}
+
+void fap_capture_close(fap_capture **c)
+{
+    if (!*c)
+        return;
+    const fap_allocator a = (*c)->alloc;
+    fap_mem_free(&a, (*c)->frames);
+    fap_mem_free(&a, *c);
+    *c = NULL;
+}

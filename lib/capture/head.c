@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Head motion: the markers that follow the skull, and the pose they give in each frame. Named markers are
+ * taken as they are. Those of a marker set are a start: they lie on skin too (a forehead marker rises with
+ * the brow), so others that carry no FAP and keep their place join in, and each is weighted by how well it
+ * keeps it.
+ */
+#include <stddef.h>
+
+#include "capture/performance.h"
+
+/* May the point be rigid without disturbing a FAP: it moves with no feature point that FAPs move. */
+static int is_free(const performance *p, uint32_t point)
+{
+    static const char *const jaw[] = { "2.11", "2.12", "2.13", "2.14" };
+
+    for (int i = 0; i < FAP_POINT_COUNT; i++) {
+        const fap_marker_source *s = &p->report->markers.point[i];
+        for (int k = 0; k < s->count; k++)
+            if (s->index[k] == (int16_t)point && fap_point_get(i)->moved)
+                return 0;
+    }
+    for (size_t j = 0; j < sizeof jaw / sizeof *jaw; j++) {
+        const fap_marker_source *s = &p->report->markers.point[fap_point_by_name(jaw[j])];
+        for (int k = 0; k < s->count; k++)
+            if (s->index[k] == (int16_t)point)
+                return 0;
+    }
+    return !(p->report->markers.role[point] &
+             (FAP_MARKER_MOUTH | FAP_MARKER_BROW_LEFT | FAP_MARKER_BROW_RIGHT));
+}
+
+static uint32_t list_points(const performance *p, int (*wanted)(const performance *, uint32_t), uint16_t *out)
+{
+    uint32_t n = 0;
+
+    for (uint32_t i = 0; i < p->take->point_count && n < RIGID_MAX_POINTS; i++)
+        if (wanted(p, i))
+            out[n++] = (uint16_t)i;
+    return n;
+}
+
+static int is_rigid(const performance *p, uint32_t point)
+{
+    return (p->report->markers.role[point] & FAP_MARKER_RIGID) != 0;
+}
+
+static int is_any(const performance *p, uint32_t point)
+{
+    (void)p;
+    (void)point;
+    return 1;
+}
+
+static int learn_named(performance *p)
+{
+    p->body.count = list_points(p, is_rigid, p->body.point);
+    return p->body.count >= 3 && rigid_body_learn(&p->body, p->take);
+}
+
+/* First among points that carry no FAP, then among all. */
+static int find_any(performance *p)
+{
+    uint16_t candidate[RIGID_MAX_POINTS];
+
+    return rigid_body_find(&p->body, p->take, candidate, list_points(p, is_free, candidate)) ||
+           rigid_body_find(&p->body, p->take, candidate, list_points(p, is_any, candidate));
+}
+
+static void extend(performance *p)
+{
+    static const double limit_mm = 1.5;
+    uint16_t candidate[RIGID_MAX_POINTS];
+
+    rigid_body_extend(&p->body, p->take, candidate, list_points(p, is_free, candidate), limit_mm);
+}
+
+static fap_err choose_body(performance *p)
+{
+    fap_capture_report *r = p->report;
+
+    r->rigid_origin = p->cfg->rigid ? FAP_ORIGIN_GIVEN : FAP_ORIGIN_SET;
+    p->has_body = learn_named(p);
+    if (!p->has_body && p->cfg->rigid)
+        return performance_fail(p, FAP_E_ARG,
+                                "--rigid: needs three markers that are not in a line and seen together");
+    if (p->has_body && !p->cfg->rigid)
+        extend(p);
+    if (!p->has_body) {
+        p->has_body = find_any(p);
+        r->rigid_origin = p->has_body ? FAP_ORIGIN_FOUND : FAP_ORIGIN_NONE;
+    }
+    if (!p->has_body)
+        performance_note(
+            p, "no three markers keep their distances: head motion stays in, FAPs 48 to 50 are left out");
+    return FAP_OK;
+}
+
+static void write_report(performance *p)
+{
+    fap_capture_report *r = p->report;
+
+    for (uint32_t i = 0; p->has_body && i < p->body.count && r->rigid_count < FAP_CAPTURE_MAX_RIGID; i++)
+        r->rigid[r->rigid_count++] = (int16_t)p->body.point[i];
+    r->rigid_rms_mm = p->has_body ? p->body.rms_mm : 0;
+}
+
+fap_err head_find(performance *p)
+{
+    static const rigid_pose identity = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }, { 0 } };
+    const fap_err err = choose_body(p);
+
+    if (err != FAP_OK)
+        return err;
+    for (uint32_t f = 0; f < p->frames; f++) {
+        p->pose[f] = identity;
+        p->posed[f] = !p->has_body || rigid_body_pose(&p->body, p->take, f, &p->pose[f]);
+        p->report->frames_without_head += !p->posed[f];
+    }
+    p->rest = identity;
+    write_report(p);
+    if (p->report->frames_without_head == p->frames)
+        return performance_fail(p, FAP_E_DATA, "the rigid markers are never seen three at a time");
+    return FAP_OK;
+}
+
+int head_still(const performance *p, uint32_t frame, uint32_t point, double out[3])
+{
+    const float *v = fap_take_sample(p->take, frame, point);
+
+    if (!v || !p->posed[frame])
+        return 0;
+    const double seen[3] = { v[0], v[1], v[2] };
+    double model[3];
+    rigid_undo(&p->pose[frame], seen, model);
+    rigid_apply(&p->rest, model, out);
+    return 1;
+}
