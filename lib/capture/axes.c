@@ -87,7 +87,8 @@ static int role_centre(const performance *p, int role, double out[3])
     return n > 0;
 }
 
-/* The table's own words: "left eyebrow, right end" is on the left. Points that it only places between others do not say. */
+/* The table's own words: "left eyebrow, right end" is on the left. Points that it only places between others
+ * do not say. */
 static int is_left(int point)
 {
     const char *text = fap_point_get(point)->description;

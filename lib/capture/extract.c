@@ -178,11 +178,11 @@ static void extract_head(performance *p)
  * ------------------------------------------------------------------------------------------------------------
  */
 
-/* The table's range counts quantiser steps. */
+/* The table's range counts quantiser steps. Where it prints no lower limit, decoders take the upper one with a minus. */
 static int is_beyond(const fap_info *info, int32_t value)
 {
-    const int32_t low = info->i_min * info->quant_step, high = info->i_max * info->quant_step;
-    return value < low || value > high;
+    const int32_t high = info->i_max * info->quant_step, low = info->i_min * info->quant_step;
+    return value > high || value < (low ? low : -high);
 }
 
 static void count_fap(performance *p, int fap)

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* fapenc: captures to FAPs. */
+#include "common/tool.h"
+#include "encoder/report.h"
+
+int main(int argc, char **argv)
+{
+    options opt;
+
+    tool_name = "fapenc";
+    if (!options_parse(&opt, argc, argv))
+        return opt.exit_status;
+
+    run_report rep = { 0 };
+    const fap_err err = run(&opt, &rep);
+    const int status = report_print(&opt, &rep, err);
+    run_close(&rep);
+    return status;
+}

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See options.h. */
+#define _GNU_SOURCE /* getopt_long */
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <fap/version.h>
+
+#include "common/tool.h"
+#include "encoder/options.h"
+
+static const char help[] =
+    "Usage: fapenc TAKE -o OUT.fap [options]       encode a capture\n"
+    "       fapenc IN.fap -o OUT.fap               rewrite a FAP file, cleaned up\n"
+    "       fapenc inspect FILE.fap [--json]       what is inside\n"
+    "\n"
+    "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
+    "NAME_y, NAME_z\n"
+    "columns. The content decides, not the name. \"-\" is standard input, -o - standard output.\n"
+    "\n"
+    "  -o, --output FILE     where the FAPs go\n"
+    "      --markers MAP.csv marker to feature point, a line each: \"LMouthCorner,8.4\", \"Head1,rigid\", "
+    "\"X,none\"\n"
+    "      --neutral N|auto  frame of the take that shows the face at rest, the first is 0; auto finds one\n"
+    "      --fapu FILE|auto  the face's FAPU in millimetres, a line each: \"ES 62.5\"; auto measures\n"
+    "      --axes XYZ|auto   the take's axes that are the head's left, up and forward, as in x-zy\n"
+    "      --unit U          mm, cm, m, or the millimetres in one unit of the take\n"
+    "      --fps R           frames a second of the output (25)\n"
+    "      --take-rate R     frames a second of the take, where the file is silent or wrong\n"
+    "      --rigid A,B,C     markers that follow the head\n"
+    "      --smooth M        auto, none, or a cut-off frequency in Hz\n"
+    "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
+    "      --start T --end T the part of the take to encode, in seconds\n"
+    "      --json            the report as JSON on standard output\n"
+    "      --quiet           errors only\n"
+    "      --help, --version\n"
+    "\n"
+    "Examples:\n"
+    "  fapenc jaw.c3d -o jaw.fap\n"
+    "  fapenc take.csv --unit 184.8 --take-rate 25 --markers dots.csv -o take.fap\n"
+    "  fapenc take.trc --neutral 120 --fapu anna.fapu --fps 30 --json -o take.fap > report.json\n"
+    "  fapenc inspect take.fap\n"
+    "\n"
+    "Exit: 0 success, 1 bad data, 2 bad usage, 3 missing device or library. docs/markers.md says how to map "
+    "markers.\n";
+
+enum {
+    OPT_MARKERS = 256,
+    OPT_NEUTRAL,
+    OPT_FAPU,
+    OPT_AXES,
+    OPT_UNIT,
+    OPT_FPS,
+    OPT_TAKE_RATE,
+    OPT_RIGID,
+    OPT_SMOOTH,
+    OPT_FILL,
+    OPT_START,
+    OPT_END,
+    OPT_JSON,
+    OPT_QUIET,
+    OPT_HELP,
+    OPT_VERSION
+};
+
+static const struct option long_options[] = {
+    { "output", required_argument, NULL, 'o' },
+    { "markers", required_argument, NULL, OPT_MARKERS },
+    { "neutral", required_argument, NULL, OPT_NEUTRAL },
+    { "fapu", required_argument, NULL, OPT_FAPU },
+    { "axes", required_argument, NULL, OPT_AXES },
+    { "unit", required_argument, NULL, OPT_UNIT },
+    { "fps", required_argument, NULL, OPT_FPS },
+    { "take-rate", required_argument, NULL, OPT_TAKE_RATE },
+    { "rigid", required_argument, NULL, OPT_RIGID },
+    { "smooth", required_argument, NULL, OPT_SMOOTH },
+    { "fill", required_argument, NULL, OPT_FILL },
+    { "start", required_argument, NULL, OPT_START },
+    { "end", required_argument, NULL, OPT_END },
+    { "json", no_argument, NULL, OPT_JSON },
+    { "quiet", no_argument, NULL, OPT_QUIET },
+    { "help", no_argument, NULL, OPT_HELP },
+    { "version", no_argument, NULL, OPT_VERSION },
+    { NULL, 0, NULL, 0 },
+};
+
+static int usage(options *opt)
+{
+    opt->exit_status = EXIT_USAGE;
+    return 0;
+}
+
+static int number(options *opt, const char *name, const char *text, double low, double high, double *out)
+{
+    char *end;
+
+    *out = strtod(text, &end);
+    if (end != text && !*end && *out >= low && *out <= high)
+        return 1;
+    tool_error("--%s %s: expected a number from %g to %g", name, text, low, high);
+    return usage(opt);
+}
+
+static const char *unless_auto(const char *text)
+{
+    return strcmp(text, "auto") ? text : NULL;
+}
+
+static int parse_neutral(options *opt, const char *text)
+{
+    double n = -1;
+
+    if (unless_auto(text) && !number(opt, "neutral", text, 0, 1e9, &n))
+        return 0;
+    if (n >= 0 && n != floor(n)) {
+        tool_error("--neutral %s: expected a frame number", text);
+        return usage(opt);
+    }
+    opt->capture.neutral_frame = (int64_t)n;
+    return 1;
+}
+
+static int parse_unit(options *opt, const char *text)
+{
+    opt->mm_per_unit = fap_take_unit_mm(text);
+    return opt->mm_per_unit > 0 || number(opt, "unit", text, 1e-6, 1e6, &opt->mm_per_unit);
+}
+
+static int parse_smooth(options *opt, const char *text)
+{
+    opt->capture.smooth_hz = 0;
+    if (!strcmp(text, "none"))
+        opt->capture.smooth_hz = -1;
+    else if (unless_auto(text))
+        return number(opt, "smooth", text, 0.5, 1000, &opt->capture.smooth_hz);
+    return 1;
+}
+
+static int parse_fill(options *opt, const char *text)
+{
+    static const char *const names[] = { "none", "spline", "all" };
+
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(text, names[i])) {
+            opt->capture.fill = (fap_fill)i;
+            return 1;
+        }
+    tool_error("--fill %s: expected none, spline or all", text);
+    return usage(opt);
+}
+
+static int parse_option(options *opt, int c, const char *arg)
+{
+    switch (c) {
+    case 'o': opt->output = arg; return 1;
+    case OPT_MARKERS: opt->markers_path = arg; return 1;
+    case OPT_NEUTRAL: return parse_neutral(opt, arg);
+    case OPT_FAPU: opt->fapu_path = unless_auto(arg); return 1;
+    case OPT_AXES: opt->capture.axes = unless_auto(arg); return 1;
+    case OPT_UNIT: return parse_unit(opt, arg);
+    case OPT_FPS: opt->rate_given = 1; return number(opt, "fps", arg, 1, 1000, &opt->capture.rate_hz);
+    case OPT_TAKE_RATE: return number(opt, "take-rate", arg, 0.5, 20000, &opt->take_rate_hz);
+    case OPT_RIGID: opt->capture.rigid = unless_auto(arg); return 1;
+    case OPT_SMOOTH: return parse_smooth(opt, arg);
+    case OPT_FILL: return parse_fill(opt, arg);
+    case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);
+    case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
+    case OPT_JSON: opt->json = 1; return 1;
+    case OPT_QUIET: tool_quiet = 1; return 1;
+    case OPT_HELP: fputs(help, stdout); return 0;
+    case OPT_VERSION: printf("fapenc %s\n", fap_version()); return 0;
+    default: return usage(opt); /* getopt has said what is wrong */
+    }
+}
+
+static int check(options *opt)
+{
+    if (!opt->input)
+        tool_error("what to read? fapenc TAKE -o OUT.fap; fapenc --help tells more");
+    else if (opt->command == COMMAND_ENCODE && !opt->output)
+        tool_error("where to? -o OUT.fap, or -o - for standard output");
+    else if (opt->command == COMMAND_ENCODE && opt->json && !strcmp(opt->output, "-"))
+        tool_error("-o - and --json would both write to standard output");
+    else if (opt->capture.end_s > 0 && opt->capture.end_s <= opt->capture.start_s)
+        tool_error("--end %g is not after --start %g", opt->capture.end_s, opt->capture.start_s);
+    else
+        return 1;
+    return usage(opt);
+}
+
+int options_parse(options *opt, int argc, char **argv)
+{
+    int c;
+
+    *opt = (options){ .exit_status = EXIT_OK };
+    fap_capture_config_init(&opt->capture);
+    while ((c = getopt_long(argc, argv, "o:", long_options, NULL)) != -1)
+        if (!parse_option(opt, c, optarg))
+            return 0;
+    if (optind < argc && !strcmp(argv[optind], "inspect")) {
+        opt->command = COMMAND_INSPECT;
+        optind++;
+    }
+    if (optind < argc)
+        opt->input = argv[optind++];
+    if (optind < argc) {
+        tool_error("one input at a time, not also %s", argv[optind]);
+        return usage(opt);
+    }
+    return check(opt);
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* The command line of fapenc. */
+#ifndef ENCODER_OPTIONS_H
+#define ENCODER_OPTIONS_H
+
+#include <fap/studio/capture.h>
+
+typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT } command;
+
+typedef struct options {
+    command command;
+    const char *input, *output; /* "-" is standard input, standard output */
+    const char *markers_path, *fapu_path;
+    double take_rate_hz; /* 0: as the file says */
+    double mm_per_unit;  /* 0: as the file says */
+    int rate_given;      /* --fps was there */
+    fap_capture_config capture;
+    int json;
+    int exit_status; /* when parsing says to stop */
+} options;
+
+/* 0: stop with opt->exit_status; help, version or what is wrong has been printed. */
+int options_parse(options *opt, int argc, char **argv);
+
+#endif
