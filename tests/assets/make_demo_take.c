@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * make_demo_take BANK.fbank OUT.c3d OUT.wav: makes the take that "make demo" encodes. A sentence is spoken by espeak-ng; its
- * phoneme times drive the visemes of a face, with head motion, blinks, brows and a smile; and what an optical rig with
- * 56 markers would have seen of that, noise and occlusions included, is written as C3D beside the sound.
- * The bank is only the actor: fapenc and fapplay see nothing of it but marker positions.
- * Not part of the product: it links espeak-ng, which is GPL. Its two outputs are committed.
- * Source of the blending of visemes: dominance functions after Cohen & Massaro 1993.
+ * make_demo_take BANK.fbank OUT.c3d OUT.wav: makes the take that "make demo" encodes. A sentence is spoken by
+ * espeak-ng; its phoneme times drive the visemes of a face, with head motion, blinks, brows and a smile; and
+ * what an optical rig with 56 markers would have seen of that, noise and occlusions included, is written as
+ * C3D beside the sound. The bank is only the actor: fapenc and fapplay see nothing of it but marker
+ * positions. Not part of the product: it links espeak-ng, which is GPL. Its two outputs are committed. Source
+ * of the blending of visemes: dominance functions after Cohen & Massaro 1993.
  */
 #include <math.h>
 #include <stdio.h>
@@ -20,36 +20,40 @@
 
 #include "common/file.h"
 
-static const char sentence[] = "Hello. I am a face made of a few numbers. Maybe two thousand bits per second.";
+static const char sentence[] =
+    "Hello. I am a face made of a few numbers. Maybe two thousand bits per second.";
 
 enum { RATE_HZ = 120, MAX_SEGMENTS = 256, MAX_KEYS = 256 };
 static const double lead_s = 0.6, tail_s = 0.9, pi = 3.14159265358979;
 
-/* --- the rig ------------------------------------------------------------------------------------------------------- */
+/* --- the rig
+ * ------------------------------------------------------------------------------------------------------- */
 
-/* A lid marker is a dot of paint on the lid's edge; the others are 3 mm balls. Names are those of a studio, not ours. */
+/* A lid marker is a dot of paint on the lid's edge; the others are 3 mm balls. Names are those of a studio,
+ * not ours. */
 static const struct marker {
     const char *label, *point;
 } rig[] = {
-    { "HeadTop", "11.1" },    { "HeadR", "11.2" },      { "HeadL", "11.3" },      { "EarLoR", "10.8" },
-    { "EarLoL", "10.7" },     { "EarUpR", "10.10" },    { "EarUpL", "10.9" },     { "BrowInL", "4.1" },
-    { "BrowInR", "4.2" },     { "BrowMidL", "4.3" },    { "BrowMidR", "4.4" },    { "BrowOutL", "4.5" },
-    { "BrowOutR", "4.6" },    { "LidUpL", "3.1" },      { "LidUpR", "3.2" },      { "LidLoL", "3.3" },
-    { "LidLoR", "3.4" },      { "EyeOutL", "3.7" },     { "EyeOutR", "3.12" },    { "EyeInL", "3.11" },
-    { "EyeInR", "3.8" },      { "OrbUpL", "3.13" },     { "OrbUpR", "3.14" },     { "OrbLoL", "3.9" },
-    { "OrbLoR", "3.10" },     { "CheekL", "5.1" },      { "CheekR", "5.2" },      { "CheekBoneL", "5.3" },
-    { "CheekBoneR", "5.4" },  { "NoseTip", "9.3" },     { "NoseBase", "9.15" },   { "NostrilL", "9.1" },
-    { "NostrilR", "9.2" },    { "NoseEdgeL", "9.5" },   { "NoseEdgeR", "9.4" },   { "NoseUpL", "9.7" },
-    { "NoseUpR", "9.6" },     { "NoseBump", "9.12" },   { "NoseLoL", "9.13" },    { "NoseLoR", "9.14" },
-    { "LipUp", "8.1" },       { "LipLo", "8.2" },       { "LipCornerL", "8.3" },  { "LipCornerR", "8.4" },
-    { "LipUpL", "8.5" },      { "LipUpR", "8.6" },      { "LipLoL", "8.7" },      { "LipLoR", "8.8" },
-    { "CupidL", "8.10" },     { "CupidR", "8.9" },      { "ChinLo", "2.1" },      { "Chin", "2.10" },
-    { "ChinL", "2.11" },      { "ChinR", "2.12" },      { "JawL", "2.13" },       { "JawR", "2.14" },
+    { "HeadTop", "11.1" },   { "HeadR", "11.2" },    { "HeadL", "11.3" },     { "EarLoR", "10.8" },
+    { "EarLoL", "10.7" },    { "EarUpR", "10.10" },  { "EarUpL", "10.9" },    { "BrowInL", "4.1" },
+    { "BrowInR", "4.2" },    { "BrowMidL", "4.3" },  { "BrowMidR", "4.4" },   { "BrowOutL", "4.5" },
+    { "BrowOutR", "4.6" },   { "LidUpL", "3.1" },    { "LidUpR", "3.2" },     { "LidLoL", "3.3" },
+    { "LidLoR", "3.4" },     { "EyeOutL", "3.7" },   { "EyeOutR", "3.12" },   { "EyeInL", "3.11" },
+    { "EyeInR", "3.8" },     { "OrbUpL", "3.13" },   { "OrbUpR", "3.14" },    { "OrbLoL", "3.9" },
+    { "OrbLoR", "3.10" },    { "CheekL", "5.1" },    { "CheekR", "5.2" },     { "CheekBoneL", "5.3" },
+    { "CheekBoneR", "5.4" }, { "NoseTip", "9.3" },   { "NoseBase", "9.15" },  { "NostrilL", "9.1" },
+    { "NostrilR", "9.2" },   { "NoseEdgeL", "9.5" }, { "NoseEdgeR", "9.4" },  { "NoseUpL", "9.7" },
+    { "NoseUpR", "9.6" },    { "NoseBump", "9.12" }, { "NoseLoL", "9.13" },   { "NoseLoR", "9.14" },
+    { "LipUp", "8.1" },      { "LipLo", "8.2" },     { "LipCornerL", "8.3" }, { "LipCornerR", "8.4" },
+    { "LipUpL", "8.5" },     { "LipUpR", "8.6" },    { "LipLoL", "8.7" },     { "LipLoR", "8.8" },
+    { "CupidL", "8.10" },    { "CupidR", "8.9" },    { "ChinLo", "2.1" },     { "Chin", "2.10" },
+    { "ChinL", "2.11" },     { "ChinR", "2.12" },    { "JawL", "2.13" },      { "JawR", "2.14" },
 };
 enum { MARKERS = sizeof rig / sizeof *rig };
 _Static_assert(MARKERS == 56, "the rig has 56 markers");
 
-/* --- speech -------------------------------------------------------------------------------------------------------- */
+/* --- speech
+ * -------------------------------------------------------------------------------------------------------- */
 
 typedef struct segment {
     int viseme;
@@ -73,13 +77,14 @@ static const struct phoneme {
     int first, second;
     double strength;
 } phonemes[] = {
-    { "p", 1, 0, 1.8 },    { "b", 1, 0, 1.8 },    { "m", 1, 0, 1.8 },    { "f", 2, 0, 1.5 },   { "v", 2, 0, 1.5 },
-    { "T", 3, 0, 1 },      { "D", 3, 0, 1 },      { "t", 4, 0, 0.7 },    { "d", 4, 0, 0.7 },   { "k", 5, 0, 0.5 },
-    { "g", 5, 0, 0.5 },    { "tS", 6, 0, 1 },     { "dZ", 6, 0, 1 },     { "S", 6, 0, 1 },     { "s", 7, 0, 0.8 },
-    { "z", 7, 0, 0.8 },    { "n", 8, 0, 0.6 },    { "l", 8, 0, 0.6 },    { "h", 0, 0, 0.1 },   { "r", 9, 0, 0.8 },
-    { "3:", 9, 0, 0.9 },   { "3", 9, 0, 0.7 },    { "aI", 10, 12, 1 },   { "aU", 10, 14, 1 },  { "oU", 13, 14, 1 },
-    { "eI", 11, 12, 1 },   { "E", 11, 0, 0.9 },   { "I", 12, 0, 0.8 },   { "i:", 12, 0, 1 },   { "u:", 14, 0, 1.1 },
-    { "V", 10, 0, 0.7 },   { "@", 11, 0, 0.5 },   { "a#", 11, 0, 0.5 },  { "A:", 10, 0, 1 },   { "w", 14, 0, 1.2 },
+    { "p", 1, 0, 1.8 },  { "b", 1, 0, 1.8 },  { "m", 1, 0, 1.8 },   { "f", 2, 0, 1.5 },  { "v", 2, 0, 1.5 },
+    { "T", 3, 0, 1 },    { "D", 3, 0, 1 },    { "t", 4, 0, 0.7 },   { "d", 4, 0, 0.7 },  { "k", 5, 0, 0.5 },
+    { "g", 5, 0, 0.5 },  { "tS", 6, 0, 1 },   { "dZ", 6, 0, 1 },    { "S", 6, 0, 1 },    { "s", 7, 0, 0.8 },
+    { "z", 7, 0, 0.8 },  { "n", 8, 0, 0.6 },  { "l", 8, 0, 0.6 },   { "h", 0, 0, 0.1 },  { "r", 9, 0, 0.8 },
+    { "3:", 9, 0, 0.9 }, { "3", 9, 0, 0.7 },  { "aI", 10, 12, 1 },  { "aU", 10, 14, 1 }, { "oU", 13, 14, 1 },
+    { "eI", 11, 12, 1 }, { "E", 11, 0, 0.9 }, { "I", 12, 0, 0.8 },  { "i:", 12, 0, 1 },  { "u:", 14, 0, 1.1 },
+    { "V", 10, 0, 0.7 }, { "@", 11, 0, 0.5 }, { "a#", 11, 0, 0.5 }, { "A:", 10, 0, 1 },  { "w", 14, 0, 1.2 },
+    { "j", 12, 0, 0.6 },
 };
 
 static void add_segment(speech *s, int viseme, double start, double end, double strength)
@@ -145,7 +150,8 @@ static int speak(const char *wav_path)
     return sf_close(spoken.out) == 0;
 }
 
-/* --- acting -------------------------------------------------------------------------------------------------------- */
+/* --- acting
+ * -------------------------------------------------------------------------------------------------------- */
 
 /* A smooth bump of height 1 between two times. */
 static double bump(double t, double from, double to)
@@ -179,7 +185,8 @@ static void viseme_weights(double t, double weight[FAP_VISEME_COUNT + 1])
     sum = rest;
     for (int i = 0; i < spoken.count; i++) {
         const double d = dominance(&spoken.segment[i], t);
-        weight[spoken.segment[i].viseme] += d * d; /* squared: the strongest shape wins, the others colour it */
+        weight[spoken.segment[i].viseme] +=
+            d * d; /* squared: the strongest shape wins, the others colour it */
         sum += d * d;
     }
     for (int v = 1; v <= FAP_VISEME_COUNT; v++)
@@ -203,14 +210,15 @@ static void act(const fap_bank *bank, double t, double weight[MAX_KEYS])
         weight[fap_bank_key_number(bank, FAP_KEY_VISEME, v)] = viseme[v];
     weight[fap_bank_key_find(bank, FAP_KEY_EXTRA, "blink")] =
         fmin(1, blink(t, lead_s + 0.42) + blink(t, lead_s + 2.45) + blink(t, end - 0.15));
-    weight[fap_bank_key_find(bank, FAP_KEY_EXTRA, "brows_up")] =
-        0.45 * bump(t, lead_s - 0.05, lead_s + 0.6) + 0.35 * bump(t, lead_s + 0.9, lead_s + 1.6) +
-        0.5 * bump(t, lead_s + 2.6, lead_s + 3.7);
+    weight[fap_bank_key_find(bank, FAP_KEY_EXTRA, "brows_up")] = 0.45 * bump(t, lead_s - 0.05, lead_s + 0.6) +
+                                                                 0.35 * bump(t, lead_s + 0.9, lead_s + 1.6) +
+                                                                 0.5 * bump(t, lead_s + 2.6, lead_s + 3.7);
     weight[fap_bank_key_number(bank, FAP_KEY_EXPRESSION, 1)] =
         0.22 * bump(t, lead_s, lead_s + 1) + 0.5 * ramp(t, end - 0.1, end + 0.35);
 }
 
-/* The head: two slow sways and a nod on the stressed words, degrees; millimetres for the torso that carries it. */
+/* The head: two slow sways and a nod on the stressed words, degrees; millimetres for the torso that carries
+ * it. */
 static void head_pose(double t, float rotation[3][3], double sway_mm[3])
 {
     const double on = ramp(t, 0.35, 0.9), au = pi / 180 * 1e5;
@@ -220,13 +228,15 @@ static void head_pose(double t, float rotation[3][3], double sway_mm[3])
                        2.4 * bump(t, lead_s + 2.75, lead_s + 3.4) + 1.5 * bump(t, lead_s + 3.6, lead_s + 4.2);
     const double pitch = nod + on * 0.8 * sin(2 * pi * 0.33 * t);
 
-    fap_head_rotation((int32_t)lrint(pitch * au), (int32_t)lrint(yaw * au), (int32_t)lrint(roll * au), rotation);
+    fap_head_rotation((int32_t)lrint(pitch * au), (int32_t)lrint(yaw * au), (int32_t)lrint(roll * au),
+                      rotation);
     sway_mm[0] = on * 6 * sin(2 * pi * 0.19 * t);
     sway_mm[1] = on * 2 * sin(2 * pi * 0.31 * t);
     sway_mm[2] = on * 5 * sin(2 * pi * 0.13 * t + 2);
 }
 
-/* --- what the cameras saw ------------------------------------------------------------------------------------------ */
+/* --- what the cameras saw
+ * ------------------------------------------------------------------------------------------ */
 
 static double uniform(uint64_t *state)
 {
@@ -242,7 +252,8 @@ static double normal(uint64_t *state)
     return sum;
 }
 
-/* The room has z up, and the actor looks along -y; its origin is on the table before the actor, where the wand lay. */
+/* The room has z up, and the actor looks along -y; its origin is on the table before the actor, where the
+ * wand lay. */
 static void to_room(const double head[3], float room[3])
 {
     room[0] = (float)(head[0] + 42);
@@ -337,7 +348,8 @@ int main(int argc, char **argv)
     if (err == FAP_OK && !speak(argv[3]))
         err = FAP_E_IO;
     if (err == FAP_OK)
-        err = fap_take_create(&take, MARKERS, (uint32_t)((lead_s + spoken.length_s + tail_s) * RATE_HZ), NULL);
+        err =
+            fap_take_create(&take, MARKERS, (uint32_t)((lead_s + spoken.length_s + tail_s) * RATE_HZ), NULL);
     if (err == FAP_OK) {
         take->rate_hz = RATE_HZ;
         for (int m = 0; m < MARKERS; m++)
