@@ -7,7 +7,9 @@
 
 #include <fap/ascii.h>
 #include <fap/bank.h>
+#include <fap/decoder.h>
 #include <fap/derive.h>
+#include <fap/encoder.h>
 #include <fap/error.h>
 #include <fap/face.h>
 #include <fap/fapu.h>

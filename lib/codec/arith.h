@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * The arithmetic coder of the face object plane: 16-bit interval, integer divisions, a 1 slipped in after 22
+ * zeros so that no start code can appear. A run is begun, codes symbols, and is ended; bits stand before and
+ * behind it in clear. Source: ISO/IEC 14496-2, arithmetic decoding of FAPs; the core is the coder of H.263
+ * Annex E.
+ */
+#ifndef LIB_CODEC_ARITH_H
+#define LIB_CODEC_ARITH_H
+
+#include "codec/bits.h"
+
+/* Where a symbol lies among the counts: [low, high) of [0, total). total is at most 16383. */
+typedef struct arith_interval {
+    uint32_t low, high, total;
+} arith_interval;
+
+enum { ARITH_HISTORY = 16 };
+
+typedef struct arith_decoder {
+    fap_bits *bits;
+    uint32_t low, high, code;
+    unsigned zeros;                 /* code bits 0 in a row */
+    uint64_t read, shifts;          /* code bits read, renormalisations done */
+    uint64_t at;                    /* in the stream */
+    uint64_t behind[ARITH_HISTORY]; /* stream position behind code bit number i % ARITH_HISTORY */
+    uint64_t false_stuffing; /* number of the code bit in front of which a stuffed bit was 0; 0: none */
+} arith_decoder;
+
+void arith_begin(arith_decoder *a, fap_bits *bits);
+/* In [0, total): the symbol whose interval holds it is the one coded. */
+uint32_t arith_target(const arith_decoder *a, uint32_t total);
+/* The symbol was found: go on behind it. */
+void arith_take(arith_decoder *a, arith_interval i);
+/* Sets the bit reader exactly behind the run; marks it bad if the run was cut or its stuffing wrong. */
+void arith_end(arith_decoder *a);
+
+typedef struct arith_encoder {
+    fap_bit_writer *bits;
+    uint32_t low, high;
+    unsigned zeros, pending;
+} arith_encoder;
+
+void arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits);
+void arith_encoder_put(arith_encoder *a, arith_interval i);
+void arith_encoder_end(arith_encoder *a);
+
+#endif

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* Bits, the arithmetic coder and its models, against plain versions of the same. */
+#include "tests/test.h"
+
+#include <string.h>
+
+#include "codec/arith.h"
+#include "codec/models.h"
+
+static uint32_t draw(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 8;
+}
+
+TEST(bits, what_was_put_is_got)
+{
+    uint8_t data[8];
+    fap_bit_writer w;
+    fap_bits b;
+
+    fap_bit_writer_init(&w, data, sizeof data);
+    fap_bits_put(&w, 3, 5);
+    fap_bits_put(&w, 32, 0xDEADBEEF);
+    fap_bits_put(&w, 1, 1);
+    fap_bits_put_stuffing(&w);
+    assert_int_equal(w.at, 40);
+    fap_bits_put_stuffing(&w);
+    assert_int_equal(w.at, 48);
+    assert_int_equal(data[5], 0x7F);
+    fap_bits_init(&b, data, 6);
+    assert_int_equal(fap_bits_get(&b, 3), 5);
+    assert_int_equal(fap_bits_get(&b, 32), 0xDEADBEEF);
+    fap_bits_marker(&b);
+    assert_int_equal(fap_bits_get(&b, 4), 7);
+    assert_int_equal(b.bad, BITS_FINE);
+}
+
+TEST(bits, reading_past_the_end_gives_zeros_and_says_so)
+{
+    const uint8_t data[1] = { 0xFF };
+    fap_bits b;
+
+    fap_bits_init(&b, data, sizeof data);
+    assert_int_equal(fap_bits_get(&b, 6), 63);
+    assert_int_equal(fap_bits_get(&b, 4), 12);
+    assert_int_equal(b.bad, BITS_PAST_END);
+    assert_int_equal(b.bad_at, 6);
+    assert_int_equal(fap_bits_get(&b, 32), 0);
+}
+
+TEST(bits, a_marker_that_is_0_is_remembered)
+{
+    const uint8_t data[1] = { 0x40 };
+    fap_bits b;
+
+    fap_bits_init(&b, data, sizeof data);
+    fap_bits_marker(&b);
+    fap_bits_marker(&b);
+    assert_int_equal(b.bad, BITS_MARKER);
+    assert_int_equal(b.bad_at, 0);
+}
+
+TEST(bits, a_full_writer_stops)
+{
+    uint8_t data[1];
+    fap_bit_writer w;
+
+    fap_bit_writer_init(&w, data, sizeof data);
+    fap_bits_put(&w, 9, 0x1FF);
+    assert_int_equal(w.full, 1);
+    assert_int_equal(w.at, 8);
+    assert_int_equal(data[0], 0xFF);
+}
+
+/* --- models against a table of all counts
+ * ----------------------------------------------------------------------------- */
+
+enum { SYMBOLS = 300 };
+
+static arith_interval plain_interval(const uint32_t *count, int symbol)
+{
+    arith_interval i = { 0 };
+
+    for (int k = SYMBOLS - 1; k >= 0; k--) {
+        i.low += k > symbol ? count[k] : 0;
+        i.total += count[k];
+    }
+    i.high = i.low + count[symbol];
+    return i;
+}
+
+static void plain_count(uint32_t *count, int symbol)
+{
+    if (plain_interval(count, 0).total == 16383)
+        for (int k = 0; k < SYMBOLS; k++)
+            count[k] = (count[k] + 1) / 2;
+    count[symbol]++;
+}
+
+TEST(models, count_like_a_table_of_all_symbols)
+{
+    static model_node node[SYMBOLS + 1];
+    uint32_t count[SYMBOLS], seed = 7;
+    model_pool pool;
+    model m = { 0 };
+
+    model_pool_init(&pool, node, SYMBOLS);
+    for (int k = 0; k < SYMBOLS; k++)
+        count[k] = 1;
+    for (int i = 0; i < 40000; i++) {
+        const int symbol = (int)(draw(&seed) % 100 ? draw(&seed) % 20 + 100 : draw(&seed) % SYMBOLS);
+        const arith_interval want = plain_interval(count, symbol);
+        arith_interval got = model_interval(&pool, &m, SYMBOLS, symbol);
+        assert_memory_equal(&got, &want, sizeof got);
+        const uint32_t target = want.low + draw(&seed) % (want.high - want.low);
+        assert_int_equal(model_find(&pool, &m, SYMBOLS, target, &got), symbol);
+        assert_memory_equal(&got, &want, sizeof got);
+        plain_count(count, symbol);
+        assert_int_equal(model_count(&pool, &m, SYMBOLS, symbol), 1);
+    }
+    model_clear(&pool, &m);
+    assert_int_equal(model_total(&m, SYMBOLS), SYMBOLS);
+}
+
+TEST(models, say_when_their_memory_is_used_up)
+{
+    model_node node[3];
+    model_pool pool;
+    model m = { 0 };
+
+    model_pool_init(&pool, node, 2);
+    assert_int_equal(model_count(&pool, &m, 10, 4), 1);
+    assert_int_equal(model_count(&pool, &m, 10, 5), 1);
+    assert_int_equal(model_count(&pool, &m, 10, 6), 0);
+    assert_int_equal(model_count(&pool, &m, 10, 5), 1);
+    model_clear(&pool, &m);
+    assert_int_equal(model_count(&pool, &m, 10, 6), 1);
+}
+
+/* --- coder
+ * ------------------------------------------------------------------------------------------------------------
+ */
+
+enum { MAX_RUN = 80 };
+
+typedef struct run {
+    int count;
+    arith_interval i[MAX_RUN];
+} run;
+
+/* Narrow or wide intervals; many that begin at 0, which make long rows of 0 bits. */
+static run random_run(uint32_t *seed)
+{
+    run r = { .count = (int)(draw(seed) % MAX_RUN) };
+
+    for (int k = 0; k < r.count; k++) {
+        const uint32_t total = 1 + draw(seed) % 16383, low = draw(seed) % 3 ? 0 : draw(seed) % total;
+        const uint32_t width = draw(seed) % 2 ? 1 : 1 + draw(seed) % (total - low);
+        r.i[k] = (arith_interval){ low, low + width, total };
+    }
+    return r;
+}
+
+static void put_run(fap_bit_writer *w, const run *r)
+{
+    arith_encoder a;
+
+    arith_encoder_begin(&a, w);
+    for (int k = 0; k < r->count; k++)
+        arith_encoder_put(&a, r->i[k]);
+    arith_encoder_end(&a);
+}
+
+static void check_run(fap_bits *b, const run *r)
+{
+    arith_decoder a;
+
+    arith_begin(&a, b);
+    for (int k = 0; k < r->count; k++) {
+        const uint32_t target = arith_target(&a, r->i[k].total);
+        assert_true(target >= r->i[k].low && target < r->i[k].high);
+        arith_take(&a, r->i[k]);
+    }
+    arith_end(&a);
+    assert_int_equal(b->bad, BITS_FINE);
+}
+
+/* Runs at every bit offset, with all kinds of bits behind them: the end must be found exactly. */
+TEST(arith, runs_are_read_back_and_end_where_they_end)
+{
+    static uint8_t data[1024];
+    uint32_t seed = 3;
+
+    for (int i = 0; i < 3000; i++) {
+        const uint32_t lead = draw(&seed) % 8, behind = i % 3 == 0 ? 0 : i % 3 == 1 ? 0xFFFFFF : draw(&seed);
+        const run r = random_run(&seed);
+        fap_bit_writer w;
+        fap_bits b;
+
+        fap_bit_writer_init(&w, data, sizeof data);
+        fap_bits_put(&w, (int)lead, 0);
+        put_run(&w, &r);
+        const uint64_t end = w.at;
+        fap_bits_put(&w, 24, behind);
+        assert_int_equal(w.full, 0);
+        fap_bits_init(&b, data, (size_t)(w.at + 7) / 8);
+        fap_bits_get(&b, (int)lead);
+        check_run(&b, &r);
+        assert_int_equal(b.at, end);
+    }
+}
+
+TEST(arith, no_run_has_23_zeros_in_a_row)
+{
+    static uint8_t data[1024];
+    uint32_t seed = 5;
+    int longest = 0;
+
+    for (int i = 0; i < 3000; i++) {
+        const run r = random_run(&seed);
+        fap_bit_writer w;
+        fap_bits b;
+        int zeros = 0;
+
+        fap_bit_writer_init(&w, data, sizeof data);
+        put_run(&w, &r);
+        fap_bits_init(&b, data, sizeof data);
+        for (uint64_t at = 0; at < w.at; at++) {
+            zeros = fap_bits_peek(&b, at, 1) ? 0 : zeros + 1;
+            longest = zeros > longest ? zeros : longest;
+        }
+    }
+    assert_int_equal(longest, 22);
+}
+
+TEST(arith, a_cut_run_is_noticed)
+{
+    static uint8_t data[1024];
+    uint32_t seed = 9;
+
+    for (int i = 0; i < 200; i++) {
+        run r = random_run(&seed);
+        fap_bit_writer w;
+        fap_bits b;
+        arith_decoder a;
+
+        fap_bit_writer_init(&w, data, sizeof data);
+        put_run(&w, &r);
+        fap_bits_init(&b, data, (size_t)(w.at - 1) / 8);
+        arith_begin(&a, &b);
+        for (int k = 0; k < r.count; k++)
+            arith_take(&a, r.i[k]); /* the right symbols: only the length is wrong */
+        arith_end(&a);
+        assert_int_equal(b.bad, BITS_PAST_END);
+    }
+}
+
+TEST(arith, a_wrong_stuffed_bit_is_noticed)
+{
+    static uint8_t data[64];
+    const run r = { .count = 4, .i = { { 0, 1, 16000 }, { 0, 1, 16000 }, { 0, 1, 16000 }, { 0, 1, 16000 } } };
+    fap_bit_writer w;
+    fap_bits b;
+    arith_decoder a;
+
+    fap_bit_writer_init(&w, data, sizeof data);
+    put_run(&w, &r);
+    assert_int_equal(data[2], 2); /* 22 zeros and the 1 */
+    data[2] = 0;
+    fap_bits_init(&b, data, (size_t)(w.at + 7) / 8);
+    arith_begin(&a, &b);
+    for (int k = 0; k < r.count; k++)
+        arith_take(&a, r.i[k]);
+    arith_end(&a);
+    assert_int_equal(b.bad, BITS_MARKER);
+}

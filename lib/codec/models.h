@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Adaptive frequency tables, kept sparse: every symbol counts 1, and only what was added to it takes memory.
+ * A table of 3,721 symbols would take 7 KiB in full and a decoder has up to 369 of them; a talking head
+ * touches some 20 symbols of each. Source: ISO/IEC 14496-2, arithmetic decoding of FAPs (models of P planes).
+ */
+#ifndef LIB_CODEC_MODELS_H
+#define LIB_CODEC_MODELS_H
+
+#include "codec/arith.h"
+
+/* A symbol that was coded: its count is 1 + extra. */
+typedef struct model_node {
+    uint16_t symbol, extra, next; /* next: lower symbol; 0 ends the list */
+} model_node;
+
+typedef struct model {
+    uint16_t first; /* the highest symbol of the list; 0: none */
+    uint16_t extra; /* sum over the list */
+} model;
+
+typedef struct model_pool {
+    model_node *node; /* [count + 1], slot 0 unused */
+    uint16_t count, used, free;
+} model_pool;
+
+/*
+ * MODEL_NODES is what a decoder has by default and what an encoder may ask of it: at least 123 P planes whose
+ * symbols are all new, and no end of them for a face that repeats itself.
+ */
+enum { MODEL_NODES = 9000, MODEL_POOL_MAX = 65534 };
+
+void model_pool_init(model_pool *pool, model_node *node, uint16_t count);
+/* All symbols count 1 again. */
+void model_clear(model_pool *pool, model *m);
+
+/* The symbol of @p size that holds @p target, and its interval. */
+int model_find(const model_pool *pool, const model *m, int size, uint32_t target, arith_interval *out);
+/* The interval of @p symbol. */
+arith_interval model_interval(const model_pool *pool, const model *m, int size, int symbol);
+uint32_t model_total(const model *m, int size);
+/* Counts @p symbol once more; 0: the pool is used up. */
+int model_count(model_pool *pool, model *m, int size, int symbol);
+
+#endif
