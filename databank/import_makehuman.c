@@ -91,10 +91,11 @@ static void split_quad(const mh_face *f, const uint32_t q[4], uint32_t out[2][3]
     }
 }
 
-/* 1 from the jaw up, 0 where the neck was cut, by the height in the file, which identities do not change. */
-static uint8_t head_weight(float base_y_dm)
+/* 1 from the jaw up, 0 where the neck was cut, by the place in the file, which identities do not change. */
+static uint8_t head_weight(const float base_dm[3])
 {
-    const float t = fminf(1, fmaxf(0, (base_y_dm - 5.78f) / 0.42f));
+    const float cut = 5.8f + 0.9f * fmaxf(0, fabsf(base_dm[0]) - 0.42f), jaw = fmaxf(6.2f, cut + 0.2f);
+    const float t = fminf(1, fmaxf(0, (base_dm[1] - cut - 0.01f) / (jaw - cut)));
     return (uint8_t)lrintf(255 * t * t * (3 - 2 * t));
 }
 
@@ -103,7 +104,7 @@ static fap_err place_weights(mh_face *f, const mh_patch *p, float (*scratch)[3])
     const fap_err err = mh_patch_apply(p, (const float(*)[3])f->source->base, scratch);
 
     for (uint32_t v = 0; !err && v < p->count; v++)
-        f->weight[p->first + v] = p->part == FAP_PART_SKIN ? head_weight(scratch[v][1]) : 255;
+        f->weight[p->first + v] = p->part == FAP_PART_SKIN ? head_weight(scratch[v]) : 255;
     return err;
 }
 
@@ -226,9 +227,11 @@ static fap_err make_face(fap_bank_builder **out, const mh_source *s, mh_patch *p
     if (!err) {
         add_tongue_units(&f);
         mh_paint(&f);
-        mh_close_lips(&f);
-        err = build(out, &f);
+        mh_lengthen_teeth(&f);
+        err = mh_close_lips(&f);
     }
+    if (!err)
+        err = build(out, &f);
     release(&f);
     return err;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * MakeHuman's head on its way into a databank: files read and identity applied (mh_read.c), parts cut out and
- * refined (mh_cut.c), eyeballs made (mh_eye.c), lips closed (mh_lips.c), colours laid on (mh_paint.c), all
+ * refined (mh_cut.c), eyeballs made (mh_eye.c), lips closed (mh_mouth.c), colours laid on (mh_paint.c), all
  * put together (import_makehuman.c). Sources: base.obj and targets of MakeHuman, "Face Units" of Mika
  * Suominen, all CC0.
  */
@@ -40,11 +40,18 @@ typedef struct mh_source {
 fap_err mh_read(mh_source *s, const package *p, char *bad, size_t bad_size);
 void mh_source_free(mh_source *s);
 
+/* A vertex that was moved to the plane of the cut: that part of the way towards another one. */
+typedef struct mh_slide {
+    uint32_t towards;
+    float part;
+} mh_slide;
+
 /* A part cut out of the mesh and subdivided. */
 typedef struct mh_patch {
     fap_part part;
     uint32_t coarse_count, *source; /* base.obj's vertex of each coarse one */
     uint32_t *compact;              /* the other way, UINT32_MAX: not in the patch */
+    mh_slide *slide;                /* of each coarse one */
     int steps;
     fap_subdivision step[MH_MAX_STEPS];
     uint32_t count, quad_count, first; /* refined; first: in the whole face */
@@ -81,8 +88,10 @@ uint32_t mh_eye_triangles(void);
 /* Measures the package's eye and puts ours in its place, colours included. */
 void mh_eye_build(mh_face *f, int right, uint32_t first_vertex, uint32_t first_triangle);
 
-/* Brings the inner lip contours together. */
-void mh_close_lips(mh_face *f);
+/* Brings the lips together at rest. */
+fap_err mh_close_lips(mh_face *f);
+/* Lets the upper teeth reach over the lower ones. */
+void mh_lengthen_teeth(mh_face *f);
 
 void mh_paint(mh_face *f);
 

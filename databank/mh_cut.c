@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* Cuts one part out of base.obj and refines it. Skin ends at the neck; teeth are coarse ridges and take two
  * steps. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "databank/makehuman.h"
 
-static const float neck_dm = 5.75f;
+static const float neck_dm = 5.8f;
 
 static const struct recipe {
     const char *group;
@@ -27,12 +28,20 @@ typedef struct cutting {
     float (*corner_uv)[2];
 } cutting;
 
-static int face_is_in(const mh_source *s, const fap_obj_face *f, uint32_t group, int skin)
+/* Height in the measure of the cut, which rises sideways: a level one would leave the tips of the shoulders.
+ */
+static float height(const cutting *c, uint32_t corner)
 {
-    for (uint32_t c = 0; skin && c < f->count; c++)
-        if (!(s->base[s->obj.vertex[f->first + c]][1] > neck_dm))
-            return 0;
-    return f->group == group;
+    const float *p = c->s->base[c->s->obj.vertex[corner]];
+    return p[1] - 0.9f * fmaxf(0, fabsf(p[0]) - 0.42f);
+}
+
+static int reaches_above(const cutting *c, const fap_obj_face *f)
+{
+    for (uint32_t i = 0; i < f->count; i++)
+        if (height(c, f->first + i) > neck_dm)
+            return 1;
+    return 0;
 }
 
 static uint32_t compact(mh_patch *p, uint32_t vertex)
@@ -57,6 +66,49 @@ static void take_face(cutting *c, const fap_obj_face *f)
     c->start[++c->face_count] = c->corner_count;
 }
 
+/* A vertex below the plane slides along the edge that climbs most. */
+static void slide(cutting *c, uint32_t low, uint32_t high)
+{
+    mh_patch *p = c->patch;
+    const float y = height(c, low), up = height(c, high);
+
+    if (y >= neck_dm || up <= neck_dm)
+        return;
+    mh_slide *s = &p->slide[p->compact[c->s->obj.vertex[low]]];
+    if (s->part > 0 && (neck_dm - y) / (up - y) >= s->part)
+        return;
+    *s = (mh_slide){ c->s->obj.vertex[high], (neck_dm - y) / (up - y) };
+}
+
+/* Along the edges of the face; where none leaves the plane's lower side, across it. */
+static void slide_face(cutting *c, const fap_obj_face *f)
+{
+    for (uint32_t i = 0; i < f->count; i++) {
+        const uint32_t a = f->first + i, b = f->first + (i + 1) % f->count;
+        slide(c, a, b);
+        slide(c, b, a);
+    }
+}
+
+static void slide_rest(cutting *c, const fap_obj_face *f)
+{
+    for (uint32_t i = 0; i < f->count; i++)
+        for (uint32_t k = 0;
+             k < f->count && !(c->patch->slide[c->patch->compact[c->s->obj.vertex[f->first + i]]].part > 0);
+             k++)
+            slide(c, f->first + i, f->first + k);
+}
+
+static void cut_plane(cutting *c, uint32_t group)
+{
+    const fap_obj *o = &c->s->obj;
+
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t f = 0; f < o->face_count; f++)
+            if (o->face[f].group == group && reaches_above(c, &o->face[f]))
+                (pass ? slide_rest : slide_face)(c, &o->face[f]);
+}
+
 static int cut_open(cutting *c, const mh_source *s)
 {
     const fap_obj *o = &s->obj;
@@ -64,10 +116,11 @@ static int cut_open(cutting *c, const mh_source *s)
 
     p->compact = malloc((o->position_count + 1u) * sizeof *p->compact);
     p->source = malloc((o->position_count + 1u) * sizeof *p->source);
+    p->slide = calloc(o->position_count + 1u, sizeof *p->slide);
     c->start = calloc(o->face_count + 2u, sizeof *c->start);
     c->vertex = malloc((o->corner_count + 1u) * sizeof *c->vertex);
     c->corner_uv = malloc((o->corner_count + 1u) * sizeof *c->corner_uv);
-    if (!p->compact || !p->source || !c->start || !c->vertex || !c->corner_uv)
+    if (!p->compact || !p->source || !p->slide || !c->start || !c->vertex || !c->corner_uv)
         return 0;
     memset(p->compact, 0xff, o->position_count * sizeof *p->compact);
     return 1;
@@ -166,8 +219,10 @@ fap_err mh_cut(mh_patch *patch, const mh_source *s, enum mh_patch_id id)
     *patch = (mh_patch){ .part = r->part, .steps = r->steps };
     fap_err err = cut_open(&c, s) ? FAP_OK : FAP_E_NOMEM;
     for (uint32_t f = 0; !err && f < s->obj.face_count; f++)
-        if (face_is_in(s, &s->obj.face[f], group, id == MH_SKIN))
+        if (s->obj.face[f].group == group && (id != MH_SKIN || reaches_above(&c, &s->obj.face[f])))
             take_face(&c, &s->obj.face[f]);
+    if (!err && id == MH_SKIN)
+        cut_plane(&c, group);
     if (!err && !c.face_count)
         err = FAP_E_DATA;
     if (!err)
@@ -188,6 +243,7 @@ void mh_patch_free(mh_patch *p)
         fap_subdivision_free(&p->step[i]);
     free(p->source);
     free(p->compact);
+    free(p->slide);
     free(p->quad);
     free(p->uv);
     *p = (mh_patch){ 0 };
@@ -199,7 +255,9 @@ fap_err mh_patch_apply(const mh_patch *p, const float (*in)[3], float (*out)[3])
     if (!from)
         return FAP_E_NOMEM;
     for (uint32_t v = 0; v < p->coarse_count; v++)
-        memcpy(from[v], in[p->source[v]], sizeof *from);
+        for (int axis = 0; axis < 3; axis++)
+            from[v][axis] = (1 - p->slide[v].part) * in[p->source[v]][axis] +
+                            p->slide[v].part * in[p->slide[v].towards][axis];
     for (int i = 0; i < p->steps; i++) {
         fap_subdivision_apply(&p->step[i], (const float(*)[3])from, out);
         memcpy(from, out, p->step[i].vertex_count * sizeof *from);

@@ -85,7 +85,8 @@ static void paint_skin(mh_face *f, uint32_t v, const float uv[2])
 {
     static const char *const warm[] = { "5.3", "5.4", NULL }, *const nose[] = { "9.3", "9.1", "9.2", NULL },
                              *const ears[] = { "10.1", "10.2", "10.3", "10.4", "10.5", "10.6", NULL },
-                             *const chin[] = { "2.10", NULL }, *const eyes[] = { "3.5", "3.6", NULL };
+                             *const chin[] = { "2.10", NULL }, *const eyes[] = { "3.5", "3.6", NULL },
+                             *const corners[] = { "2.4", "2.5", NULL };
     const float *p = f->position[v];
     const mh_source *s = f->source;
     const float lips = mask_sample(&s->lips, uv[0], uv[1]), mouth = mask_sample(&s->mouth, uv[0], uv[1]);
@@ -93,8 +94,9 @@ static void paint_skin(mh_face *f, uint32_t v, const float uv[2])
     rgb c = mix(skin, blush, 0.40f * bells(f, p, warm, 19) + 0.32f * bells(f, p, nose, 11));
     c = mix(c, blush, 0.5f * bells(f, p, ears, 16) + 0.15f * bells(f, p, chin, 12));
     c = mix(c, shade, 0.45f * bells(f, p, eyes, 17));
-    c = mix(c, lip, lips);
+    c = mix(c, lip, fmaxf(lips, 0.9f * bells(f, p, corners, 3.5f)));
     c = mix(c, inside, mouth);
+    c = mix(c, shade, 0.7f * mask_sample(&s->lids, uv[0], uv[1]));
     c = mix(c, brow, 0.92f * brow_cover(f, p));
     set(f, v, c, 0.14f + 0.10f * bells(f, p, nose, 11) + 0.22f * lips * (1 - mouth) + 0.45f * mouth);
 }
