@@ -168,10 +168,11 @@ void mh_lengthen_teeth(mh_face *f)
     const float *tip = mh_face_point(f, "9.10"), *root = mh_face_point(f, "9.8");
     if (!tip || !root || !(root[1] > tip[1]))
         return;
-    const float low = tip[1], high = root[1], more_mm = 2.2f;
+    const float low = tip[1], high = root[1], more_mm = 5.4f, forward_mm = 2.4f;
 
     for (uint32_t v = p->first; v < p->first + p->count; v++) {
         const float t = fminf(1, fmaxf(0, (high - f->position[v][1]) / (high - low)));
         f->position[v][1] -= more_mm * t * t;
+        f->position[v][2] += forward_mm;
     }
 }

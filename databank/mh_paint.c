@@ -15,7 +15,7 @@ typedef struct rgb {
 static const rgb skin = { 0.80f, 0.615f, 0.515f }, blush = { 0.80f, 0.50f, 0.42f },
                  lip = { 0.70f, 0.37f, 0.35f }, inside = { 0.48f, 0.17f, 0.17f },
                  brow = { 0.22f, 0.15f, 0.105f }, shade = { 0.62f, 0.44f, 0.37f },
-                 tooth = { 0.93f, 0.90f, 0.84f }, gum = { 0.70f, 0.38f, 0.37f },
+                 tooth = { 0.97f, 0.95f, 0.90f }, gum = { 0.70f, 0.38f, 0.37f },
                  tongue = { 0.72f, 0.36f, 0.36f };
 
 static rgb mix(rgb a, rgb b, float t)
@@ -68,7 +68,8 @@ static float brow_cover(const mh_face *f, const float p[3])
         return 0;
     const float along = (p[0] - a[0]) / (c[0] - a[0]);
     const float below = brow_line(a, b, c, p[0]) - 3 - p[1];
-    const float half = 3.4f - 2.4f * smooth(0.35f, 1, along);
+    const float half =
+        (3.3f - 2.5f * smooth(0.3f, 1.02f, along)) * (0.45f + 0.55f * smooth(-0.1f, 0.22f, along));
     const float ends = smooth(-0.06f, 0.06f, along) * (1 - smooth(0.95f, 1.06f, along));
     return ends * (1 - smooth(half - 1.2f, half + 1.2f, fabsf(below)));
 }
@@ -94,7 +95,7 @@ static void paint_skin(mh_face *f, uint32_t v, const float uv[2])
     rgb c = mix(skin, blush, 0.40f * bells(f, p, warm, 19) + 0.32f * bells(f, p, nose, 11));
     c = mix(c, blush, 0.5f * bells(f, p, ears, 16) + 0.15f * bells(f, p, chin, 12));
     c = mix(c, shade, 0.45f * bells(f, p, eyes, 17));
-    c = mix(c, lip, fmaxf(lips, 0.9f * bells(f, p, corners, 3.5f)));
+    c = mix(c, lip, fmaxf(lips, 0.75f * bells(f, p, corners, 2.2f)));
     c = mix(c, inside, mouth);
     c = mix(c, shade, 0.7f * mask_sample(&s->lids, uv[0], uv[1]));
     c = mix(c, brow, 0.92f * brow_cover(f, p));
