@@ -67,6 +67,24 @@ static void find_known_keys(fap_face *face)
     }
 }
 
+static void find_rivals(fap_face *face)
+{
+    static const struct pair {
+        const char *a, *b;
+        float stiffness_mm2;
+    } pairs[FAP_RIVALS] = {
+        { "mouthLeft", "mouthRight", 5 },          { "jawLeft", "jawRight", 5 },
+        { "eyeBlinkLeft", "eyeWideLeft", 1 },      { "eyeBlinkRight", "eyeWideRight", 1 },
+        { "mouthSmileLeft", "mouthFrownLeft", 1 }, { "mouthSmileRight", "mouthFrownRight", 1 },
+    };
+
+    for (int i = 0; i < FAP_RIVALS; i++) {
+        const int a = unit(face, pairs[i].a), b = unit(face, pairs[i].b);
+        if (a >= 0 && b >= 0)
+            face->rivals[face->rival_count++] = (fap_face_rivals){ { a, b }, pairs[i].stiffness_mm2 };
+    }
+}
+
 static int is_look(const fap_face *face, int key)
 {
     const fap_face_keys *k = &face->known;
@@ -102,6 +120,7 @@ static void read_keys(fap_face *face)
                 face->key[k]->point_mm[row / 3][row % 3];
     }
     find_known_keys(face);
+    find_rivals(face);
     fap_face_make_basis(face);
     sort_keys(face);
 }

@@ -15,7 +15,7 @@
 #include "bank/residual.h"
 #include "dsp/dsp.h"
 
-enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_SLITS = 5 };
+enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_SLITS = 5, FAP_RIVALS = 6 };
 
 /* Keys with a part of their own, by bank index; -1 where the bank has none. */
 typedef struct fap_face_keys {
@@ -23,6 +23,12 @@ typedef struct fap_face_keys {
     int blink[2], blink_both; /* left, right; the extra key of both */
     int look_up[2], look_down[2], look_in[2], look_out[2];
 } fap_face_keys;
+
+/* Two units that undo one another. */
+typedef struct fap_face_rivals {
+    int key[2];
+    float stiffness_mm2;
+} fap_face_rivals;
 
 typedef struct fap_face_list {
     uint32_t *vertex, count;
@@ -53,6 +59,8 @@ struct fap_face {
     uint8_t solvable[FAP_POINT_COUNT]; /* moved by blending and residual; eyeballs are not */
     float neutral[FAP_POINT_COUNT][3];
     fap_face_keys known;
+    fap_face_rivals rivals[FAP_RIVALS];
+    int rival_count;
     fap_face_eye eye[2]; /* left, right */
     fap_face_list lower_teeth, tongue, lash;
     uint32_t *follows; /* [vertex_count]: nearest skin vertex of a lash, itself for the rest */

@@ -14,8 +14,9 @@ static const float most_of_a_key = 4;  /* the thesis sets no bound; absurd targe
 static const float ridge_mm2 = 0.1f;   /* decides between equal answers: the smaller weights */
 static const float most_unasked = 200;
 static const float close_price_mm2 = 20;
-static const double base_hold_mm2 = 1.0;     /* how dearly a viseme or expression yields to low-level FAPs */
-static const float farthest_mm = 150;        /* beyond it a target is noise; keeps sums of squares finite */
+static const double base_hold_mm2 = 1.0; /* how dearly a viseme or expression yields to low-level FAPs */
+static const float farthest_mm = 150;    /* beyond it a target is noise; keeps sums of squares finite */
+static const float beside_weight = 1;
 static const float worth_it_mm = 0.1f;       /* RMS the GA must gain before it is believed ... */
 static const float fully_worth_it_mm = 0.5f; /* ... and before it is believed fully */
 
@@ -129,6 +130,11 @@ static void add_squares(const fap_face *face, int row, float *sum)
         sum[k] += a[k] * a[k];
 }
 
+static int drives_lips(const fap_face *face)
+{
+    return face->wanted[face->slit[0][0]][1] || face->wanted[face->slit[0][1]][1];
+}
+
 /*
  * Costs of keys: what a key does to points nobody speaks of, against what it does to commanded ones. Brows
  * move the lids a little, too, but a command to the lids alone should close the eyes and leave the brows in
@@ -148,9 +154,9 @@ static void price_keys(fap_face *face)
     }
     for (int k = 0; k < face->key_count; k++)
         face->price[k] = ridge_mm2 * (1 + fminf(beside[k] / (asked[k] + 1e-3f), most_unasked));
-    /* Jaw down with lips shut is open_jaw to the standard's letter; shown alone, an open mouth is expected.
+    /* Jaw down with lips shut is open_jaw to the letter; where lips have no say, an open mouth is expected.
      */
-    if (face->known.mouth_close >= 0)
+    if (face->known.mouth_close >= 0 && !drives_lips(face))
         face->price[face->known.mouth_close] = fmaxf(face->price[face->known.mouth_close], close_price_mm2);
 }
 
@@ -179,6 +185,31 @@ static void set_variables(fap_face *face)
         add_variable(face, face->base_key[i], face->base_weight[i], base_hold_mm2, face->base_weight[i]);
     if (close >= 0 && base_jaw(face) > 0)
         add_variable(face, face->key_count, fmin(1, base_jaw(face)), ridge_mm2, 0);
+}
+
+static int variable_of(const fap_face *face, int key)
+{
+    for (int i = 0; i < face->qp.n; i++)
+        if (face->variable[i] == key)
+            return i;
+    return -1;
+}
+
+/*
+ * Opposites shown together (mouth left and right) cancel out but for their by-products, which the solver
+ * would make use of: stiffness * (w1 + w2)^2 makes that dear and keeps the problem convex.
+ */
+static void add_rivals(fap_face *face)
+{
+    fap_qp *qp = &face->qp;
+
+    for (int r = 0; r < face->rival_count; r++) {
+        const fap_face_rivals *rivals = &face->rivals[r];
+        const int pair[2] = { variable_of(face, rivals->key[0]), variable_of(face, rivals->key[1]) };
+        for (int i = 0; i < 4 && pair[0] >= 0 && pair[1] >= 0; i++)
+            qp->gram[(size_t)pair[i / 2] * (size_t)qp->capacity + (size_t)pair[i % 2]] +=
+                rivals->stiffness_mm2;
+    }
 }
 
 /* The variables that move this row, and how far. */
@@ -215,6 +246,7 @@ static void solve_least_squares(fap_face *face)
     const fap_face_keys *k = &face->known;
 
     set_variables(face);
+    add_rivals(face);
     for (int r = 0; r < face->row_count; r++)
         add_row(face, face->row[r]);
     fap_qp_solve(&face->qp);
@@ -319,47 +351,68 @@ static void solve_zhu(fap_face *face)
 /* --- the default: the same algorithm, seeded with the exact answer, counting millimetres
  * ------------------------- */
 
-/* target and importance of the commanded rows */
-static void wanted_rows(const fap_face *face, float *target, float *row_weight)
+/* What the GA compares: rows, where they should go, what a millimetre counts. */
+typedef struct aim {
+    int commanded, count; /* commanded rows first */
+    uint16_t row[FAP_ROWS];
+    float target[FAP_ROWS], weight[FAP_ROWS];
+} aim;
+
+static void aim_at(aim *a, int row, float target, float weight)
 {
-    for (int r = 0; r < face->row_count; r++) {
-        target[r] = row_target(face, face->row[r]);
-        row_weight[r] = importance(face->row[r]);
+    a->row[a->count] = (uint16_t)row;
+    a->target[a->count] = target;
+    a->weight[a->count++] = weight;
+}
+
+/*
+ * Commanded rows at their targets; points nobody speaks of where the exact answer leaves them. Without the
+ * latter a raised brow was reached by "surprise", open mouth and all.
+ */
+static void take_aim(const fap_face *face, aim *a)
+{
+    a->count = 0;
+    for (int r = 0; r < face->row_count; r++)
+        aim_at(a, face->row[r], row_target(face, face->row[r]), importance(face->row[r]));
+    a->commanded = a->count;
+    for (int row = 0; row < FAP_ROWS; row++) {
+        const uint8_t *w = face->wanted[row / 3];
+        if (face->solvable[row / 3] && !w[0] && !w[1] && !w[2])
+            aim_at(a, row, fap_face_row_motion(face, row, face->weight), beside_weight);
     }
 }
 
-static float squared_error(const fap_face *face, const float *target, const float *weight,
-                           const float *row_weight)
+static float squared_error(const fap_face *face, const aim *a, const float *weight, int weighted)
 {
     float sum = 0;
 
-    for (int r = 0; r < face->row_count; r++) {
-        const float e = fap_face_row_motion(face, face->row[r], weight) - target[r];
-        sum += (row_weight ? row_weight[r] : 1) * e * e;
+    for (int r = 0; r < a->commanded; r++) {
+        const float e = fap_face_row_motion(face, a->row[r], weight) - a->target[r];
+        sum += (weighted ? a->weight[r] : 1) * e * e;
     }
     return sum;
 }
 
-static void add_weights(fap_face *face, const float *weight)
+static void add_weights(fap_face *face, const aim *a, const float *weight)
 {
     float *vector, *gene;
 
     if (!fap_ga_add(&face->ga, &vector, &gene))
         return;
     memcpy(gene, weight, sizeof *gene * (size_t)face->key_count);
-    for (int r = 0; r < face->row_count; r++)
-        vector[r] = fap_face_row_motion(face, face->row[r], weight);
+    for (int r = 0; r < a->count; r++)
+        vector[r] = fap_face_row_motion(face, a->row[r], weight);
 }
 
-static void add_key(fap_face *face, int key)
+static void add_key(fap_face *face, const aim *a, int key)
 {
     float *vector, *gene;
 
     if (!fap_ga_add(&face->ga, &vector, &gene))
         return;
     gene[key] = 1;
-    for (int r = 0; r < face->row_count; r++)
-        vector[r] = face->motion[(size_t)face->row[r] * (size_t)face->key_count + (size_t)key];
+    for (int r = 0; r < a->count; r++)
+        vector[r] = face->motion[(size_t)a->row[r] * (size_t)face->key_count + (size_t)key];
 }
 
 /*
@@ -381,13 +434,13 @@ static float rms(float squared, int count)
     return sqrtf(squared / (float)count);
 }
 
-static void seed_population(fap_face *face)
+static void seed_population(fap_face *face, const aim *a)
 {
     fap_ga_clear(&face->ga);
-    add_weights(face, face->weight);
+    add_weights(face, a, face->weight);
     for (int k = 0; k < face->key_count; k++)
         if (face->population[k])
-            add_key(face, k);
+            add_key(face, a, k);
 }
 
 /* Mean cosine along the commanded axes alone: what nobody asked for is neither right nor wrong. */
@@ -403,33 +456,34 @@ static float fitness_of(const fap_face *face, const float *weight)
     return fap_ga_cosine(target, got, FAP_ROWS);
 }
 
-static void take_if_better(fap_face *face, const float *target, const float *weight)
+static void take_if_better(fap_face *face, const aim *a, const float *weight)
 {
-    if (squared_error(face, target, weight, NULL) <= squared_error(face, target, face->weight, NULL) &&
+    if (squared_error(face, a, weight, 0) <= squared_error(face, a, face->weight, 0) &&
         fitness_of(face, weight) >= fitness_of(face, face->weight))
         memcpy(face->weight, weight, sizeof *weight * (size_t)face->key_count);
 }
 
 static void improve(fap_face *face)
 {
-    float target[FAP_ROWS], row_weight[FAP_ROWS], score;
+    aim a;
+    float score;
 
-    wanted_rows(face, target, row_weight);
-    const float before_mm = rms(squared_error(face, target, face->weight, row_weight), face->row_count);
+    take_aim(face, &a);
+    const float before_mm = rms(squared_error(face, &a, face->weight, 1), a.commanded);
     if (before_mm < worth_it_mm)
         return;
-    seed_population(face);
-    const fap_ga_task task = { .target = target,
-                               .row_weight = row_weight,
-                               .size = face->row_count,
+    seed_population(face, &a);
+    const fap_ga_task task = { .target = a.target,
+                               .row_weight = a.weight,
+                               .size = a.count,
                                .crossover = face->cfg.crossover,
                                .generations = face->cfg.generations,
                                .seed = face->cfg.seed,
                                .gene_max = weight_max };
     const float *gene = fap_ga_run(&face->ga, &task, &score);
     float *mixed = face->ga.gene; /* the first individual's place: the run is over */
-    accept(face, gene, before_mm - rms(-score, face->row_count), mixed);
-    take_if_better(face, target, mixed);
+    accept(face, gene, before_mm - rms(-score, a.commanded), mixed);
+    take_if_better(face, &a, mixed);
 }
 
 /* ------------------------------------------------------------------------------------------------------------------

@@ -24,12 +24,12 @@ static const char *const across[][2] = { { "2.2", "2.3" }, { "2.6", "2.8" }, { "
 static float group_radius(const fap_point_info *info)
 {
     switch (info->group) {
-    case 2: return info->index == 1 ? 30 : info->index == 10 ? 20 : 14; /* chin, chin boss, inner lips */
+    case 2: return info->index == 1 ? 34 : info->index == 10 ? 26 : 14; /* chin, chin boss, inner lips */
     case 3: return 13;
-    case 4: return 25;
+    case 4: return 32;
     case 5: return 26;
     case 6: return 25;
-    case 8: return 18;
+    case 8: return 20;
     case 9: return 18;
     case 10: return 20;
     default: return 0;
