@@ -122,45 +122,86 @@ static int leftward(const performance *p, double out[3])
     return pairs > 0 && normalise(out);
 }
 
-/* How high a group of feature points sits, and how far in front, in rough steps. */
+/* How high a group of feature points sits, in rough steps. */
 static int height_of(int group)
 {
     static const int8_t height[12] = { [2] = -3, [3] = 2, [4] = 3, [5] = 0, [8] = -2, [9] = 0, [11] = 6 };
     return height[group];
 }
 
-static int frontness_of(const fap_point_info *info)
-{
-    const int on_midline = strcmp(info->name, fap_point_get(info->mirror)->name) == 0;
-
-    if (info->group == 10)
-        return -2;
-    if (info->group == 2 || info->group == 8 || info->group == 9)
-        return on_midline ? 1 : 0;
-    return info->group == 3 || info->group == 4 || info->group == 5 ? -1 : 0;
-}
-
-/* Sum of places weighted by the deviation of a rough score from its mean: the direction in which the score
+/* Sum of places weighted by how much higher than the average they should be: the direction in which height
  * grows. */
-static int direction(const performance *p, int by_height, double out[3])
+static int heightward(const performance *p, double out[3])
 {
-    double place[FAP_POINT_COUNT][3], score[FAP_POINT_COUNT], mean = 0, spread = 0;
+    double place[FAP_POINT_COUNT][3], height[FAP_POINT_COUNT], mean = 0, spread = 0;
     int n = 0;
 
     for (int i = 0; i < FAP_POINT_COUNT; i++) {
-        const fap_point_info *info = fap_point_get(i);
-        if (info->group == 6 || info->group == 7 || !neutral_point(p, i, place[n]))
+        const int group = fap_point_get(i)->group;
+        if (group == 6 || group == 7 || group == 10 || !neutral_point(p, i, place[n]))
             continue;
-        score[n] = by_height ? height_of(info->group) : frontness_of(info);
-        mean += score[n++];
+        height[n] = height_of(group);
+        mean += height[n++];
     }
     out[0] = out[1] = out[2] = 0;
     for (int i = 0; i < n; i++) {
-        spread += fabs(score[i] - mean / n);
+        spread += fabs(height[i] - mean / n);
         for (int axis = 0; axis < 3; axis++)
-            out[axis] += (score[i] - mean / n) * place[i][axis];
+            out[axis] += (height[i] - mean / n) * place[i][axis];
     }
     return n >= 3 && spread > 0.5 && normalise(out);
+}
+
+/* Solves the 3x3 system in place; 0 when it has no single answer. */
+static int solve3(double a[3][4])
+{
+    for (int c = 0; c < 3; c++) {
+        int pivot = c;
+        for (int r = c + 1; r < 3; r++)
+            if (fabs(a[r][c]) > fabs(a[pivot][c]))
+                pivot = r;
+        if (fabs(a[pivot][c]) < 1e-6)
+            return 0;
+        for (int k = 0; k < 4; k++) {
+            const double t = a[c][k];
+            a[c][k] = a[pivot][k];
+            a[pivot][k] = t;
+        }
+        for (int r = 0; r < 3; r++) {
+            const double f = r == c ? 0 : a[r][c] / a[c][c];
+            for (int k = c; k < 4; k++)
+                a[r][k] -= f * a[c][k];
+        }
+    }
+    return 1;
+}
+
+/*
+ * A face falls back towards its sides. The fit z = a + b y + c |x| over all points tells by the sign of c,
+ * whichever way the head nods: 1 when what is called forward is backward.
+ */
+static int is_inside_out(const performance *p, const double x[3], const double y[3], const double z[3])
+{
+    static const double clear_slope = 0.15;
+    double normal[3][4] = { { 0 } }, place[3], middle = 0;
+    int n = 0;
+
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < FAP_POINT_COUNT; i++) {
+            const int group = fap_point_get(i)->group;
+            if (group == 6 || group == 7 || !neutral_point(p, i, place))
+                continue;
+            if (pass == 0) {
+                middle += dot(place, x);
+                n++;
+                continue;
+            }
+            const double term[4] = { 1, dot(place, y), fabs(dot(place, x) - middle / n), dot(place, z) };
+            for (int r = 0; r < 3; r++)
+                for (int c = 0; c < 4; c++)
+                    normal[r][c] += term[r] * term[c];
+        }
+    return n >= 6 && solve3(normal) && normal[2][3] / normal[2][2] > clear_slope;
 }
 
 /* Rings have no feature points yet: brows are above mouths. */
@@ -168,7 +209,7 @@ static int upward(const performance *p, double out[3])
 {
     double brow[3], mouth[3];
 
-    if (direction(p, 1, out))
+    if (heightward(p, out))
         return 1;
     if (!role_centre(p, FAP_MARKER_BROW_LEFT | FAP_MARKER_BROW_RIGHT, brow) ||
         !role_centre(p, FAP_MARKER_MOUTH, mouth))
@@ -209,7 +250,7 @@ static void swap_sides(performance *p)
 
 static int found(performance *p)
 {
-    double x[3], up[3], z[3], front[3];
+    double x[3], up[3], z[3];
 
     if (!leftward(p, x) || !upward(p, up))
         return 0;
@@ -218,8 +259,7 @@ static int found(performance *p)
         return 0;
     prefer_own_axis(x, up);
     cross(x, up, z);
-    /* Middle points lie in front of side points by tens of millimetres; a mirrored face has them behind. */
-    if (direction(p, 0, front) && dot(front, z) < -0.3) {
+    if (is_inside_out(p, x, up, z)) {
         for (int axis = 0; axis < 3; axis++) {
             x[axis] = -x[axis];
             z[axis] = -z[axis];

@@ -178,7 +178,8 @@ static void extract_head(performance *p)
  * ------------------------------------------------------------------------------------------------------------
  */
 
-/* The table's range counts quantiser steps. Where it prints no lower limit, decoders take the upper one with a minus. */
+/* The table's range counts quantiser steps. Where it prints no lower limit, decoders take the upper one with
+ * a minus. */
 static int is_beyond(const fap_info *info, int32_t value)
 {
     const int32_t high = info->i_max * info->quant_step, low = info->i_min * info->quant_step;

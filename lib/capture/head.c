@@ -75,6 +75,30 @@ static void extend(performance *p)
     rigid_body_extend(&p->body, p->take, candidate, list_points(p, is_free, candidate), limit_mm);
 }
 
+/*
+ * Forehead markers ride on the brows: in a brow take they turn the head by degrees and the chin by a
+ * centimetre. When the set's markers do not keep their distances, a group that does is better.
+ */
+static int replace_loose(performance *p)
+{
+    static const double loose_mm = 0.7;
+    uint16_t candidate[RIGID_MAX_POINTS];
+    const rigid_body named = p->body;
+
+    if (named.rms_mm < loose_mm)
+        return 0;
+    if (rigid_body_find(&p->body, p->take, candidate, list_points(p, is_free, candidate)) &&
+        p->body.rms_mm < named.rms_mm) {
+        performance_note(
+            p,
+            "the set's rigid markers stray by %.2f mm, others keep together within %.2f mm: those are used",
+            named.rms_mm, p->body.rms_mm);
+        return 1;
+    }
+    p->body = named;
+    return 0;
+}
+
 static fap_err choose_body(performance *p)
 {
     fap_capture_report *r = p->report;
@@ -84,8 +108,11 @@ static fap_err choose_body(performance *p)
     if (!p->has_body && p->cfg->rigid)
         return performance_fail(p, FAP_E_ARG,
                                 "--rigid: needs three markers that are not in a line and seen together");
-    if (p->has_body && !p->cfg->rigid)
+    if (p->has_body && !p->cfg->rigid) {
         extend(p);
+        if (replace_loose(p))
+            r->rigid_origin = FAP_ORIGIN_FOUND;
+    }
     if (!p->has_body) {
         p->has_body = find_any(p);
         r->rigid_origin = p->has_body ? FAP_ORIGIN_FOUND : FAP_ORIGIN_NONE;
