@@ -84,7 +84,9 @@ BASE := $(B)/libfap-common.a $(B)/libfap-studio.a $(B)/libfap.a
 $(B)/fapenc: $(call obj,$(ENC_SRC)) $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(SOUND_LIBS) $(STUDIO_LIBS) $(if $(PNG),-lpng) -lm
-$(B)/fapplay: $(call obj,$(PLAY_SRC)) $(B)/libfap-render.a $(BASE)
+# Everything of fapplay but main: the unit tests link it too.
+$(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC)))
+$(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
 $(B)/fapbank: $(call obj,$(BANK_SRC)) $(B)/libfap-render.a $(BASE)
@@ -96,7 +98,7 @@ FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildc
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
 ALL_LIBS := $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
 
-$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-render.a $(BASE)
+$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
 $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-render.a $(BASE)

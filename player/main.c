@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* fapplay: FAP to face. */
+#include "common/tool.h"
+#include "player/options.h"
+#include "player/report.h"
+#include "player/run.h"
+
+int main(int argc, char **argv)
+{
+    play_options opt;
+    play_report report = { 0 };
+
+    tool_name = "fapplay";
+    if (!play_options_parse(&opt, argc, argv))
+        return opt.exit_status;
+    tool_quiet = opt.quiet;
+    play_run(&opt, &report);
+    return play_report_print(&report, &opt);
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* The command line of fapplay. */
+#ifndef PLAYER_OPTIONS_H
+#define PLAYER_OPTIONS_H
+
+#include <stdint.h>
+
+#include <fap/face.h>
+
+#include "player/render/renderer.h"
+#include "player/sinks/sink.h"
+
+enum { PLAY_MAX_MOMENTS = 1024 };
+
+typedef struct play_options {
+    const char *stream; /* "-": standard input */
+    const char *bank;   /* NULL: find the default face; "builtin" */
+    const char *output, *golden, *audio;
+    const play_sink *sink;
+    fap_face_config face;
+    render_camera camera;
+    int width, height;
+    double rate_hz;   /* 0: the stream's */
+    int has_range;    /* --frames */
+    int64_t from, to; /* to is INT64_MAX where it was left open */
+    int moments;      /* --sheet; 0: none */
+    int update, tolerance;
+    int json, quiet;
+    int exit_status; /* when parsing says not to run */
+} play_options;
+
+/* 1: run. 0: leave with exit_status; --help, --version or what is wrong has been printed. */
+int play_options_parse(play_options *o, int argc, char **argv);
+
+#endif

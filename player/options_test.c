@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* The command line of fapplay. What is refused also says so on stderr. */
+#include "tests/test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "common/tool.h"
+#include "player/options.h"
+
+enum { MOST_WORDS = 32 };
+
+/* Parses "fapplay " and the blank-separated words of @line; o's strings live in @room. */
+static int parse(play_options *o, const char *line)
+{
+    static char room[512];
+    char *argv[MOST_WORDS + 1] = { "fapplay" }, *rest;
+    int argc = 1;
+
+    snprintf(room, sizeof room, "%s", line);
+    for (char *word = strtok_r(room, " ", &rest); word && argc < MOST_WORDS;
+         word = strtok_r(NULL, " ", &rest))
+        argv[argc++] = word;
+    return play_options_parse(o, argc, argv);
+}
+
+static void takes(play_options *o, const char *line)
+{
+    assert_true(parse(o, line));
+}
+
+static void refuses(const char *line)
+{
+    play_options o;
+
+    assert_false(parse(&o, line));
+    assert_int_equal(o.exit_status, EXIT_USAGE);
+}
+
+TEST(play_options, defaults_are_those_of_the_help)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o a.png");
+    assert_string_equal(o.stream, "a.fap");
+    assert_string_equal(o.output, "a.png");
+    assert_ptr_equal(o.sink, &sink_png);
+    assert_null(o.bank);
+    assert_int_equal(o.face.blend, FAP_BLEND_GA);
+    assert_int_equal(o.face.generations, 70);
+    assert_int_equal(o.face.residual, 1);
+    assert_int_equal(o.width, 720);
+    assert_int_equal(o.tolerance, 2);
+    assert_false(o.has_range);
+}
+
+TEST(play_options, every_option_of_the_face_arrives)
+{
+    play_options o;
+
+    takes(&o, "--bank b.fbank --blend zhu --crossover blx --generations 5 --emphasis 1.5 --seed 9 "
+              "--no-residual --blink "
+              "- --output null");
+    assert_string_equal(o.stream, "-");
+    assert_string_equal(o.bank, "b.fbank");
+    assert_int_equal(o.face.blend, FAP_BLEND_ZHU);
+    assert_int_equal(o.face.crossover, FAP_CROSSOVER_BLX);
+    assert_int_equal(o.face.generations, 5);
+    assert_float_equal(o.face.emphasis, 1.5, 0);
+    assert_int_equal(o.face.seed, 9);
+    assert_int_equal(o.face.residual, 0);
+    assert_int_equal(o.face.blink, 1);
+}
+
+TEST(play_options, every_option_of_the_picture_arrives)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o a.mp4 --size 64x32 --fps 29.97 --frames 3:9 --camera three-quarter --audio a.wav "
+              "--json --quiet");
+    assert_int_equal(o.width, 64);
+    assert_int_equal(o.height, 32);
+    assert_float_equal(o.rate_hz, 29.97, 1e-12);
+    assert_int_equal(o.from, 3);
+    assert_int_equal(o.to, 9);
+    assert_int_equal(o.camera, CAMERA_THREE_QUARTER);
+    assert_string_equal(o.audio, "a.wav");
+    assert_true(o.json && o.quiet);
+}
+
+TEST(play_options, either_end_of_a_range_may_be_left_out)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o null --frames 5:");
+    assert_int_equal(o.from, 5);
+    assert_true(o.to == INT64_MAX);
+    takes(&o, "a.fap -o null --frames :7");
+    assert_int_equal(o.from, 0);
+    assert_int_equal(o.to, 7);
+}
+
+TEST(play_options, sheet_and_golden_choose_their_sinks)
+{
+    play_options o;
+
+    takes(&o, "a.fap --sheet 6 -o a.png");
+    assert_ptr_equal(o.sink, &sink_sheet);
+    assert_int_equal(o.moments, 6);
+    assert_int_equal(o.width, 320);
+    takes(&o, "a.fap --sheet 6 -o -");
+    assert_ptr_equal(o.sink, &sink_sheet);
+    takes(&o, "a.fap --golden dir --update --tolerance 0");
+    assert_ptr_equal(o.sink, &sink_golden);
+    assert_int_equal(o.tolerance, 0);
+}
+
+TEST(play_options, help_and_version_are_no_errors)
+{
+    play_options o;
+
+    assert_false(parse(&o, "--version"));
+    assert_int_equal(o.exit_status, EXIT_OK);
+}
+
+TEST(play_options, wrong_values_are_refused)
+{
+    static const char *const wrong[] = {
+        "--size 0x5",
+        "--size 5x0",
+        "--size 5",
+        "--size 5x",
+        "--size x5",
+        "--size 8193x1",
+        "--size -5x5",
+        "--size 5x5x5",
+        "--fps 0",
+        "--fps -1",
+        "--fps nan",
+        "--fps inf",
+        "--fps 1001",
+        "--fps 5x",
+        "--frames 5",
+        "--frames 5:5",
+        "--frames 6:5",
+        "--frames -1:5",
+        "--frames a:b",
+        "--frames 1:2:3",
+        "--frames 99999999999999999999:",
+        "--blend best",
+        "--crossover two",
+        "--generations -1",
+        "--generations 100001",
+        "--emphasis -1",
+        "--emphasis 11",
+        "--seed -1",
+        "--seed 0x1",
+        "--camera back",
+        "--tolerance 256",
+        "--sheet 0",
+        "--sheet 1025",
+        "--update",
+    };
+    char line[128];
+
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        snprintf(line, sizeof line, "a.fap -o a.png %s", wrong[i]);
+        refuses(line);
+    }
+}
+
+TEST(play_options, wrong_combinations_are_refused)
+{
+    refuses("");
+    refuses("a.fap");
+    refuses("-o a.png");
+    refuses("a.fap b.fap -o a.png");
+    refuses("a.fap -o a.gif");
+    refuses("a.fap -o a_%s.png");
+    refuses("a.fap -o a_%04d_%04d.png");
+    refuses("a.fap -o a.mp4 --size 63x64");
+    refuses("a.fap -o a.png --audio a.wav");
+    refuses("a.fap -o - --json");
+    refuses("a.fap -o a.mp4 --sheet 4");
+    refuses("a.fap -o a_%04d.png --sheet 4");
+    refuses("a.fap --sheet 4");
+    refuses("a.fap --sheet 4 --golden d");
+    refuses("a.fap --no-such-option");
+    refuses("a.fap -o");
+    refuses("a.fap -x -o a.png");
+}

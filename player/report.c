@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See report.h. */
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "common/json.h"
+#include "common/tool.h"
+#include "player/report.h"
+
+void play_report_note(play_report *r, const char *fmt, ...)
+{
+    if (r->note_count == REPORT_MAX_NOTES)
+        return;
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(r->note[r->note_count++], REPORT_TEXT_SIZE, fmt, args);
+    va_end(args);
+}
+
+static void put_golden(json *j, const sink_result *result)
+{
+    json_open(j, "golden", '{');
+    json_integer(j, "same", result->same);
+    json_integer(j, "different", result->different);
+    json_integer(j, "updated", result->updated);
+    json_integer(j, "worst", result->worst);
+    json_close(j, '}');
+}
+
+static void put_notes(json *j, const play_report *r)
+{
+    json_open(j, "notes", '[');
+    for (int i = 0; i < r->note_count; i++)
+        json_string(j, NULL, r->note[i]);
+    json_close(j, ']');
+}
+
+static void put_json(const play_report *r, const play_options *o)
+{
+    json j = { .out = stdout };
+
+    json_open(&j, NULL, '{');
+    json_string(&j, "stream", o->stream);
+    json_bool(&j, "ok", r->fault.exit_status == EXIT_OK);
+    if (r->fault.exit_status != EXIT_OK)
+        json_string(&j, "error", r->fault.text);
+    json_string(&j, "sink", o->sink->name);
+    if (o->output)
+        json_string(&j, "output", o->output);
+    json_string(&j, "face", r->face);
+    if (r->renderer[0])
+        json_string(&j, "renderer", r->renderer);
+    json_integer(&j, "stream_frames", r->stream_frames);
+    json_number(&j, "stream_rate_hz", r->stream_rate_hz);
+    json_number(&j, "stream_s", r->stream_s);
+    json_integer(&j, "shown_frames", r->shown_frames);
+    json_number(&j, "rate_hz", r->rate_hz);
+    if (o->audio)
+        json_number(&j, "sound_s", r->sound_s);
+    json_number(&j, "worst_blend_error_mm", r->error_mm);
+    json_number(&j, "worst_error_mm", r->residual_mm);
+    if (o->golden)
+        put_golden(&j, &r->result);
+    put_notes(&j, r);
+    json_close(&j, '}');
+}
+
+static void say_success(const play_report *r, const play_options *o)
+{
+    if (o->golden && o->update)
+        tool_note("%s: %" PRId64 " pictures written", o->golden, r->result.updated);
+    else if (o->golden)
+        tool_note("%s: %" PRId64 " pictures, all the same", o->golden, r->result.same);
+    else
+        tool_note("%s: %" PRId64 " frame%s of %.2f s at %g Hz", o->output, r->shown_frames,
+                  r->shown_frames == 1 ? "" : "s", r->stream_s, r->rate_hz);
+}
+
+int play_report_print(const play_report *r, const play_options *o)
+{
+    for (int i = 0; i < r->note_count; i++)
+        tool_note("%s", r->note[i]);
+    if (r->fault.exit_status != EXIT_OK)
+        tool_error("%s", r->fault.text);
+    else
+        say_success(r, o);
+    if (o->json)
+        put_json(r, o);
+    return r->fault.exit_status;
+}

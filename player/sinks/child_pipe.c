@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See child_pipe.h. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdint.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "player/sinks/child_pipe.h"
+
+extern char **environ;
+
+/* The child must not inherit our write end: its input would never end. */
+static int open_pipe(int fd[2])
+{
+    if (pipe(fd))
+        return errno;
+    fcntl(fd[0], F_SETFD, FD_CLOEXEC);
+    fcntl(fd[1], F_SETFD, FD_CLOEXEC);
+    return 0;
+}
+
+/* SIGPIPE is ours to ignore, not the child's. Its words go where ours go, its output nowhere: stdout may be a
+ * report. */
+static int spawn(pid_t *pid, char *const argv[], int input)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t defaults;
+
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const int err = posix_spawnp(pid, argv[0], &actions, &attributes, argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    return err;
+}
+
+int child_pipe_start(child_pipe *c, char *const argv[])
+{
+    int fd[2];
+
+    *c = (child_pipe){ 0, -1 };
+    signal(SIGPIPE, SIG_IGN); /* a program that gives up is an EPIPE here, not our end */
+    int err = open_pipe(fd);
+    if (err)
+        return err;
+    err = spawn(&c->pid, argv, fd[0]);
+    close(fd[0]);
+    if (err) {
+        close(fd[1]);
+        c->pid = 0;
+        return err;
+    }
+    c->fd = fd[1];
+    return 0;
+}
+
+int child_pipe_write(child_pipe *c, const void *data, size_t size)
+{
+    const uint8_t *rest = data;
+
+    while (size) {
+        const ssize_t n = write(c->fd, rest, size);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return errno;
+        rest += n;
+        size -= (size_t)n;
+    }
+    return 0;
+}
+
+static int wait_for(child_pipe *c)
+{
+    int status;
+
+    close(c->fd);
+    while (waitpid(c->pid, &status, 0) < 0)
+        if (errno != EINTR)
+            return -1;
+    c->pid = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+int child_pipe_finish(child_pipe *c)
+{
+    return wait_for(c);
+}
+
+void child_pipe_abandon(child_pipe *c)
+{
+    if (!c->pid)
+        return;
+    kill(c->pid, SIGKILL);
+    wait_for(c);
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See timeline.h. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <fap/derive.h>
+
+#include "player/timeline.h"
+
+static const int64_t longest_us = INT64_C(24) * 3600 * 1000000;
+/* Times of stream and output are rounded to microseconds on their own: this close together they are the same
+ * time. */
+static const int64_t same_us = 2;
+
+static fap_err grow(timeline *t)
+{
+    if (t->count < t->capacity)
+        return FAP_OK;
+    const size_t capacity = t->capacity ? 2 * t->capacity : 256;
+    fap_frame *frame = realloc(t->frame, capacity * sizeof *frame);
+    if (!frame)
+        return FAP_E_NOMEM;
+    t->frame = frame;
+    t->capacity = capacity;
+    return FAP_OK;
+}
+
+static fap_err append(timeline *t, fap_frame *frame, char *where)
+{
+    if (t->count == TIMELINE_MAX_FRAMES || frame->pts_us > longest_us) {
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "more than %d frames or 24 hours; cut the stream",
+                 TIMELINE_MAX_FRAMES);
+        return FAP_E_LIMIT;
+    }
+    const fap_err err = grow(t);
+    if (err)
+        return err;
+    fap_derive(frame);
+    t->frame[t->count++] = *frame;
+    return FAP_OK;
+}
+
+static fap_err read_frames(timeline *t, fap_ascii_reader *reader, char *where)
+{
+    fap_frame frame;
+    fap_err err;
+
+    while ((err = fap_ascii_reader_next(reader, &frame)) == FAP_OK)
+        if ((err = append(t, &frame, where)) != FAP_OK)
+            return err;
+    if (err != FAP_E_END) {
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", fap_ascii_reader_last_error(reader));
+        return err;
+    }
+    if (!t->count) {
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "the stream has no frames");
+        return FAP_E_DATA;
+    }
+    return FAP_OK;
+}
+
+fap_err timeline_load(timeline *t, const fap_reader *in, fap_ascii_notice notice, void *user, char *where)
+{
+    fap_ascii_reader_config cfg;
+    fap_ascii_reader *reader;
+
+    *t = (timeline){ 0 };
+    where[0] = '\0';
+    fap_ascii_reader_config_init(&cfg);
+    cfg.notice = notice;
+    cfg.notice_user = user;
+    fap_err err = fap_ascii_reader_open(&reader, in, &cfg, where);
+    if (err)
+        return err;
+    t->rate_hz = fap_ascii_reader_header(reader)->rate_hz;
+    err = read_frames(t, reader, where);
+    fap_ascii_reader_close(&reader);
+    if (err)
+        timeline_free(t);
+    else
+        t->end_us = t->frame[t->count - 1].pts_us + timeline_time_us(1, t->rate_hz);
+    return err;
+}
+
+void timeline_free(timeline *t)
+{
+    free(t->frame);
+    *t = (timeline){ 0 };
+}
+
+int64_t timeline_time_us(int64_t k, double rate_hz)
+{
+    return (int64_t)((double)k * 1e6 / rate_hz + 0.5);
+}
+
+int64_t timeline_frame_count(const timeline *t, double rate_hz)
+{
+    const int64_t count = (int64_t)ceil((double)(t->end_us - same_us) * rate_hz * 1e-6);
+    return count > 1 ? count : 1;
+}
+
+/* The last stream frame that has begun at @time_us; the first one before that. */
+static size_t frame_at(const timeline *t, int64_t time_us)
+{
+    size_t low = 0, high = t->count;
+
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (t->frame[middle].pts_us <= time_us + same_us)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* A FAP without a value in either frame has nothing to be interpolated to. */
+static void interpolate(fap_frame *out, const fap_frame *next, double share)
+{
+    for (int fap = 3; fap <= FAP_COUNT; fap++) {
+        const double a = out->value[fap], b = next->value[fap];
+        if (out->state[fap] != FAP_ABSENT && next->state[fap] != FAP_ABSENT)
+            out->value[fap] = (int32_t)lround(a + (b - a) * share);
+    }
+}
+
+void timeline_sample(const timeline *t, int64_t time_us, fap_frame *out)
+{
+    const size_t i = frame_at(t, time_us);
+    const fap_frame *frame = &t->frame[i];
+    const int64_t since_us = time_us - frame->pts_us;
+
+    *out = *frame;
+    out->pts_us = time_us;
+    if (since_us <= same_us || i + 1 == t->count)
+        return;
+    interpolate(out, frame + 1, (double)since_us / (double)(frame[1].pts_us - frame->pts_us));
+}

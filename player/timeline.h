@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * A whole stream in memory, asked for any time: what is shown is a function of time alone, so that pausing,
+ * seeking, dropping frames and testing are one operation.
+ */
+#ifndef PLAYER_TIMELINE_H
+#define PLAYER_TIMELINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <fap/ascii.h>
+#include <fap/frame.h>
+
+enum { TIMELINE_MAX_FRAMES = 1 << 19 }; /* 5.8 hours at 25 Hz, 200 MB */
+
+typedef struct timeline {
+    fap_frame *frame; /* [count], times never go back; what could be derived is derived */
+    size_t count, capacity;
+    double rate_hz; /* the stream's own */
+    int64_t end_us; /* when the last frame is over */
+} timeline;
+
+/*
+ * Reads all of @in. Malformed or empty streams and those past the limits fail and leave @t empty.
+ * @notice  as in fap_ascii_reader_config, may be NULL
+ * @where   FAP_ERROR_TEXT_SIZE bytes: line, column, reason
+ */
+fap_err timeline_load(timeline *t, const fap_reader *in, fap_ascii_notice notice, void *user, char *where);
+void timeline_free(timeline *t);
+
+/* How many frames of @rate_hz begin before the stream is over. At the stream's own rate: as many as it has.
+ */
+int64_t timeline_frame_count(const timeline *t, double rate_hz);
+/* When output frame @k begins, microseconds. */
+int64_t timeline_time_us(int64_t k, double rate_hz);
+/*
+ * The face at @time_us, which may lie outside the stream (the first or last frame then). Values are
+ * interpolated linearly; states, viseme and expression are those of the stream's frame before. pts_us is
+ * @time_us.
+ */
+void timeline_sample(const timeline *t, int64_t time_us, fap_frame *out);
+
+#endif
