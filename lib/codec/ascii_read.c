@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "codec/ascii_lines.h"
 #include "codec/ascii_number.h"
+#include "param/frame.h"
 
 enum {
     VISEME_NUMBERS = 4,
@@ -21,7 +22,6 @@ enum {
     MAX_NUMBERS =
         1 + VISEME_NUMBERS + EXPRESSION_NUMBERS + FAP_COUNT - 2 + 1, /* frame number, FAPs, a 69th column */
     MASK_LINE_KEPT = 160, /* a mask line up to this length is recognised when it comes again */
-    MAX_AMPLITUDE = 63,   /* viseme_blend, expression_intensity */
     MS_STEP = 10,         /* without a header, steps this large are milliseconds, not frames */
 };
 
@@ -506,7 +506,7 @@ static int unpack_viseme(int32_t packed, fap_viseme *v)
     const int32_t rest = packed - 101010;
 
     if (rest < 0 || rest / 10000 > FAP_VISEME_COUNT || rest / 100 % 100 > FAP_VISEME_COUNT ||
-        rest % 100 > MAX_AMPLITUDE)
+        rest % 100 > FRAME_STRENGTH_MAX)
         return 0;
     *v = (fap_viseme){ (uint8_t)(rest / 10000), (uint8_t)(rest / 100 % 100), (uint8_t)(rest % 100), 0 };
     return 1;
@@ -527,7 +527,7 @@ static int take_four(fap_ascii_reader *r, int at)
         return 0;
     r->frame.viseme = (fap_viseme){ .select1 = (uint8_t)r->number[at],
                                     .select2 = (uint8_t)r->number[at + 1],
-                                    .blend = strength(r, at + 2, MAX_AMPLITUDE),
+                                    .blend = strength(r, at + 2, FRAME_STRENGTH_MAX),
                                     .def = strength(r, at + 3, 1) };
     return 1;
 }
@@ -538,9 +538,9 @@ static int take_six(fap_ascii_reader *r, int at)
         !is_select(r, at + 2, FAP_EXPRESSION_COUNT))
         return 0;
     r->frame.expression = (fap_expression){ .select1 = (uint8_t)r->number[at],
-                                            .intensity1 = strength(r, at + 1, MAX_AMPLITUDE),
+                                            .intensity1 = strength(r, at + 1, FRAME_STRENGTH_MAX),
                                             .select2 = (uint8_t)r->number[at + 2],
-                                            .intensity2 = strength(r, at + 3, MAX_AMPLITUDE),
+                                            .intensity2 = strength(r, at + 3, FRAME_STRENGTH_MAX),
                                             .init_face = strength(r, at + 4, 1),
                                             .def = strength(r, at + 5, 1) };
     return 1;

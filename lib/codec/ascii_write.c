@@ -11,11 +11,11 @@
 #include <fap/tables.h>
 
 #include "base/mem.h"
+#include "param/frame.h"
 
 enum {
     MAX_NUMBER = 21, /* characters of a 64-bit number and a blank */
     FRAME_MAX = 2 * FAP_COUNT + MAX_NUMBER * (1 + 4 + 6 + FAP_COUNT), /* mask line and value line */
-    MAX_AMPLITUDE = 63,
 };
 
 struct fap_ascii_writer {
@@ -182,30 +182,11 @@ static int64_t next_number(const fap_ascii_writer *w, const fap_frame *f)
     return at >= (double)(w->number + 1) ? (int64_t)at : w->number + 1;
 }
 
-static int viseme_is_sound(const fap_viseme *v)
-{
-    return v->select1 <= FAP_VISEME_COUNT && v->select2 <= FAP_VISEME_COUNT && v->blend <= MAX_AMPLITUDE &&
-           v->def <= 1;
-}
-
-static int expression_is_sound(const fap_expression *e)
-{
-    return e->select1 <= FAP_EXPRESSION_COUNT && e->select2 <= FAP_EXPRESSION_COUNT &&
-           e->intensity1 <= MAX_AMPLITUDE && e->intensity2 <= MAX_AMPLITUDE && e->init_face <= 1 &&
-           e->def <= 1;
-}
-
-static int frame_is_sound(const fap_frame *f)
-{
-    return (f->state[1] != FAP_CODED || viseme_is_sound(&f->viseme)) &&
-           (f->state[2] != FAP_CODED || expression_is_sound(&f->expression));
-}
-
 fap_err fap_ascii_writer_put(fap_ascii_writer *w, const fap_frame *frame)
 {
     char text[FRAME_MAX];
 
-    if (!w || !frame || !frame_is_sound(frame))
+    if (!w || !frame || !fap_frame_is_sound(frame))
         return FAP_E_ARG;
     if (w->err == FAP_OK && w->written == w->promised)
         w->err = FAP_E_DATA;

@@ -44,6 +44,16 @@ void fap_bits_marker(fap_bits *b)
     fap_bits_get(b, 1);
 }
 
+const char *fap_bits_why(const fap_bits *b)
+{
+    switch (b->bad) {
+    case BITS_MARKER: return "a marker bit is 0";
+    case BITS_PAST_END: return "the data is cut";
+    case BITS_FINE: break;
+    }
+    return "";
+}
+
 void fap_bit_writer_init(fap_bit_writer *w, uint8_t *data, size_t room)
 {
     *w = (fap_bit_writer){ .data = data, .room = room };

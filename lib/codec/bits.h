@@ -24,6 +24,8 @@ void fap_bits_init(fap_bits *b, const uint8_t *data, size_t size);
 uint32_t fap_bits_get(fap_bits *b, int n);
 /* One bit that must be 1. */
 void fap_bits_marker(fap_bits *b);
+/* What went wrong, in words. */
+const char *fap_bits_why(const fap_bits *b);
 /* @p n bits (0 to 32) at @p at without moving; zeros past the end, which is no fault. */
 uint32_t fap_bits_peek(const fap_bits *b, uint64_t at, int n);
 

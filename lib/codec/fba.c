@@ -26,7 +26,7 @@ int32_t fba_step(int param, int quant)
 static int16_t high_level_max(int param, int quant)
 {
     if (!is_select(param))
-        return (int16_t)(quant ? (FBA_STRENGTH_MAX + quant / 2) / quant : FBA_STRENGTH_MAX);
+        return (int16_t)(quant ? (FRAME_STRENGTH_MAX + quant / 2) / quant : FRAME_STRENGTH_MAX);
     return fba_fap(param) == 1 ? FAP_VISEME_COUNT : FAP_EXPRESSION_COUNT;
 }
 

@@ -12,6 +12,7 @@
 #include <fap/tables.h>
 
 #include "codec/bits.h"
+#include "param/frame.h"
 
 /* Start codes, and those of drafts that old decoders take. */
 enum {
@@ -29,7 +30,6 @@ enum { FBA_MASK_NONE, FBA_MASK_HOLD, FBA_MASK_INTERPOLATE, FBA_MASK_ALL }; /* fa
 enum {
     FBA_BOUND_UNIT = 60, /* ranges are sent in this unit, 5 bits */
     FBA_BOUND_MAX = 31,
-    FBA_STRENGTH_MAX = 63, /* viseme_blend and expression_intensity */
 };
 
 /* Parameters in the order in which they are coded: 3 of FAP 1, 4 of FAP 2, FAPs 3 to 68. */

@@ -10,7 +10,9 @@
 
 #include "base/mem.h"
 #include "codec/fba.h"
+#include "codec/fba_time.h"
 #include "codec/models.h"
+#include "param/frame.h"
 
 enum {
     MAX_INTRA = 10000,
@@ -23,6 +25,7 @@ enum {
 
 typedef struct queued {
     fap_frame frame;
+    int64_t number;   /* in the stream, from 0 */
     uint32_t skipped; /* frames left out in front of it */
 } queued;
 
@@ -51,31 +54,12 @@ struct fap_encoder {
 /* --- frames in
  * ------------------------------------------------------------------------------------------------------ */
 
-static int viseme_is_sound(const fap_viseme *v)
-{
-    return v->select1 <= FAP_VISEME_COUNT && v->select2 <= FAP_VISEME_COUNT && v->blend <= FBA_STRENGTH_MAX &&
-           v->def <= 1;
-}
-
-static int expression_is_sound(const fap_expression *e)
-{
-    return e->select1 <= FAP_EXPRESSION_COUNT && e->select2 <= FAP_EXPRESSION_COUNT &&
-           e->intensity1 <= FBA_STRENGTH_MAX && e->intensity2 <= FBA_STRENGTH_MAX && e->init_face <= 1 &&
-           e->def <= 1;
-}
-
-static int frame_is_sound(const fap_frame *f)
-{
-    return (f->state[1] != FAP_CODED || viseme_is_sound(&f->viseme)) &&
-           (f->state[2] != FAP_CODED || expression_is_sound(&f->expression));
-}
-
 /* The frame number nearest to the frame's time, always above the one before. */
 static int64_t place(const fap_encoder *e, const fap_frame *f)
 {
     if (!e->sent)
         return 0;
-    const double rate = e->rate_16 / 16.0 * (e->offset ? 1000.0 / 1001 : 1);
+    const double rate = fba_rate_hz(e->rate_16, e->offset);
     const double at = ((double)f->pts_us - (double)e->first_pts_us) * 1e-6 * rate + 0.5;
     return at >= (double)(e->number + 1) && at < 1e15 ? (int64_t)at : e->number + 1;
 }
@@ -90,7 +74,7 @@ static int same_mask(const fap_frame *a, const fap_frame *b)
 
 fap_err fap_encoder_send(fap_encoder *e, const fap_frame *frame)
 {
-    if (!e || !frame || e->flushed || !frame_is_sound(frame))
+    if (!e || !frame || e->flushed || !fap_frame_is_sound(frame))
         return FAP_E_ARG;
     if (e->count == e->cfg.intra || (e->count && !same_mask(&e->queue[0].frame, frame)))
         e->ready = 1;
@@ -103,7 +87,7 @@ fap_err fap_encoder_send(fap_encoder *e, const fap_frame *frame)
     if (!e->sent++)
         e->first_pts_us = frame->pts_us;
     e->number = number;
-    e->queue[e->count++] = (queued){ *frame, (uint32_t)skipped };
+    e->queue[e->count++] = (queued){ *frame, number, (uint32_t)skipped };
     return FAP_OK;
 }
 
@@ -161,7 +145,7 @@ static int16_t quantise(fap_encoder *e, const fap_frame *f, int param, int intra
 
 static uint8_t clamp_strength(int32_t v)
 {
-    return (uint8_t)(v > FBA_STRENGTH_MAX ? FBA_STRENGTH_MAX : v < 0 ? 0 : v);
+    return (uint8_t)(v > FRAME_STRENGTH_MAX ? FRAME_STRENGTH_MAX : v < 0 ? 0 : v);
 }
 
 static void show(const fap_encoder *e, fap_frame *f)
@@ -181,6 +165,8 @@ static void quantise_group(fap_encoder *e)
 {
     for (int i = 0; i < e->count; i++) {
         e->shown[i] = e->queue[i].frame;
+        e->shown[i].number = e->queue[i].number;
+        e->shown[i].pts_us = fba_frames_us(e->rate_16, e->offset, e->queue[i].number);
         for (int param = 0; param < FBA_PARAMS; param++)
             if (e->setup.coded[fba_fap(param)])
                 e->level[i][param] = quantise(e, &e->queue[i].frame, param, i == 0);
@@ -474,7 +460,7 @@ static void choose_rate(fap_encoder *e)
     const double rate = e->cfg.rate_hz;
     const uint32_t plain = sixteenths(rate), slowed = sixteenths(rate * 1001 / 1000);
 
-    e->offset = away(slowed * 1000 / 16016.0, rate) < away(plain / 16.0, rate) - 1e-6;
+    e->offset = away(fba_rate_hz(slowed, 1), rate) < away(fba_rate_hz(plain, 0), rate) - 1e-6;
     e->rate_16 = e->offset ? slowed : plain;
 }
 

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See fba_codes.h. */
+#include "codec/fba_codes.h"
+
+static int is_start_code(const fap_bits *b, uint64_t at)
+{
+    return at % 8 == 0 && at + 32 <= b->end && fap_bits_peek(b, at, 24) == FBA_START_PREFIX;
+}
+
+/* Bits of stuffing at @p at: a 0, then 1s to the byte boundary. 0: something else is there. */
+static int stuffing(const fap_bits *b, uint64_t at)
+{
+    const int n = 8 - (int)(at % 8);
+    return at + (uint64_t)n <= b->end && fap_bits_peek(b, at, n) == (1u << (n - 1)) - 1 ? n : 0;
+}
+
+int fba_code_at(const fap_bits *b, uint64_t *at)
+{
+    const int n = stuffing(b, *at);
+
+    if (n && is_start_code(b, *at + (uint64_t)n))
+        *at += (uint64_t)n;
+    if (!is_start_code(b, *at))
+        return -1;
+    return (int)fap_bits_peek(b, *at + 24, 8);
+}
+
+void fba_seek_code(fap_bits *b)
+{
+    b->at = (b->at + 7) / 8 * 8;
+    while (b->at < b->end && !is_start_code(b, b->at))
+        b->at += 8;
+}
+
+int fba_is_used_up(const fap_bits *b)
+{
+    return b->at == b->end || (b->at + 8 >= b->end && b->at + (uint64_t)stuffing(b, b->at) == b->end);
+}
+
+/* A plane cannot begin with three 0s: fba_object_mask would be 0. */
+int fba_is_padding(const fap_bits *b)
+{
+    return b->end - b->at < 8 && !fap_bits_peek(b, b->at, (int)(b->end - b->at));
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Start codes of an FBA stream and the stuffing in front of them. Planes without a start code follow the
+ * plane before at the very next bit, so every question here is asked at the end of a plane. Source: ISO/IEC
+ * 14496-2, next_start_code and start code values.
+ */
+#ifndef LIB_CODEC_FBA_CODES_H
+#define LIB_CODEC_FBA_CODES_H
+
+#include "codec/fba.h"
+
+/* The last byte of the start code at @p *at, behind stuffing or not; -1: none. *at moves to the code. */
+int fba_code_at(const fap_bits *b, uint64_t *at);
+/* Forward to the next start code or the end. */
+void fba_seek_code(fap_bits *b);
+/* Nothing is left but stuffing. */
+int fba_is_used_up(const fap_bits *b);
+/* What is left is less than a byte of 0s. */
+int fba_is_padding(const fap_bits *b);
+
+#endif

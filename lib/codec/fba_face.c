@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * See fba_face.h. Field names are the standard's.
+ * Source: ISO/IEC 14496-2, face object plane syntax and arithmetic decoding of FAPs.
+ */
+#include <string.h>
+
+#include <fap/derive.h>
+
+#include "codec/fba_face.h"
+
+enum { MARKER_EVERY = 4 };
+
+static const int32_t value_limit = 1 << 30; /* far outside of anything a face does, and safe to add to */
+
+static fap_err fail(fba_face_reader *r, fap_err err, uint64_t at, const char *what, const char *why)
+{
+    r->at = at;
+    r->what = what;
+    r->why = why;
+    return err;
+}
+
+static fap_err check_bits(fba_face_reader *r, const char *what)
+{
+    if (r->bits->bad == BITS_FINE)
+        return FAP_OK;
+    return fail(r, FAP_E_BITSTREAM, r->bits->bad_at, what, fap_bits_why(r->bits));
+}
+
+/* --- masks and ranges
+ * ---------------------------------------------------------------------------------------------- */
+
+static void read_group_mask(fap_bits *b, int group, fba_setup *s)
+{
+    const int first = fap_group_first(group), end = first + fap_group_count(group);
+
+    fap_bits_marker(b);
+    s->mask_type[group] = (uint8_t)fap_bits_get(b, 2);
+    for (int fap = first; fap < end; fap++) {
+        switch (s->mask_type[group]) {
+        case FBA_MASK_NONE: s->coded[fap] = 0; break;
+        case FBA_MASK_ALL: s->coded[fap] = 1; break;
+        default: s->coded[fap] = (uint8_t)fap_bits_get(b, 1); break;
+        }
+    }
+}
+
+static void read_bound(fap_bits *b, fba_setup *s, int fap, int table)
+{
+    const int bound = fba_bound((int)fap_bits_get(b, 5), s->quant);
+    fba_range *r = &s->range[table < 2 ? FBA_I : FBA_P][fap];
+
+    if (table % 2 == 0)
+        r->max = (int16_t)bound;
+    else
+        r->min = (int16_t)-bound;
+}
+
+/* Tables 0..3: I max, I min, P max, P min. Markers are counted over all FAPs of a group, coded or not. */
+static void read_range_table(fap_bits *b, fba_setup *s, int table)
+{
+    for (int group = 2; group <= FAP_GROUPS; group++)
+        for (int i = 0; i < fap_group_count(group); i++) {
+            const int fap = fap_group_first(group) + i;
+            if (i % MARKER_EVERY == 0)
+                fap_bits_marker(b);
+            if (s->coded[fap])
+                read_bound(b, s, fap, table);
+        }
+}
+
+/* The table's ranges are installed once, with the quantiser of that plane; later ones stay until they are
+ * sent again. */
+static void install_default_ranges(fba_face_reader *r, fba_face *p)
+{
+    if (p->has_ranges)
+        return;
+    fba_default_ranges(&p->setup, r->default_bound);
+    p->has_ranges = 1;
+}
+
+static fap_err read_setup(fba_face_reader *r, fba_face *p)
+{
+    fap_bits *b = r->bits;
+
+    p->setup.quant = (uint8_t)fap_bits_get(b, 5);
+    for (int group = 1; group <= FAP_GROUPS; group++)
+        read_group_mask(b, group, &p->setup);
+    p->setup.gender = (uint8_t)fap_bits_get(b, 1);
+    const uint32_t fba_object_coding_type = fap_bits_get(b, 1);
+    const fap_err err = check_bits(r, "FAP group masks");
+    if (err != FAP_OK)
+        return err;
+    if (fba_object_coding_type)
+        return fail(r, FAP_E_UNSUPPORTED, b->at - 1, "fba_object_coding_type 1",
+                    "DCT segments (ISO/IEC 14496-2, face segment syntax) are not supported");
+    install_default_ranges(r, p);
+    const uint32_t is_new = fap_bits_get(b, 4);
+    for (int table = 0; table < 4; table++)
+        if (is_new >> (3 - table) & 1)
+            read_range_table(b, &p->setup, table);
+    return check_bits(r, "symbol ranges");
+}
+
+/* --- values
+ * ------------------------------------------------------------------------------------------------------------
+ */
+
+static void add_value(fba_face *p, int param, int32_t level, int intra)
+{
+    const int64_t v = (int64_t)level * fba_step(param, p->setup.quant) + (intra ? 0 : p->value[param]);
+
+    p->value[param] = (int32_t)(v > value_limit ? value_limit : v < -value_limit ? -value_limit : v);
+}
+
+/* One symbol. 0: no memory to count it. */
+static int read_symbol(fba_face_reader *r, arith_decoder *a, fba_face *p, int param, int intra)
+{
+    static const model flat; /* I symbols are coded with counts of 1 */
+    model *const adaptive = &r->model[param];
+    const model *const m = intra ? &flat : adaptive;
+    const fba_range range = fba_param_range(&p->setup, param, intra);
+    const int size = fba_range_size(range);
+    const uint64_t before = a->shifts;
+    arith_interval where;
+
+    const int symbol = model_find(r->pool, m, size, arith_target(a, model_total(m, size)), &where);
+    arith_take(a, where);
+    p->fap_bits[fba_fap(param)] = (uint16_t)(p->fap_bits[fba_fap(param)] + (a->shifts - before));
+    add_value(p, param, symbol + range.min, intra);
+    return intra || model_count(r->pool, adaptive, size, symbol);
+}
+
+/* One arithmetic run: the coded ones of params [first, end). */
+static fap_err read_run(fba_face_reader *r, fba_face *p, int first, int end, int intra)
+{
+    arith_decoder a;
+
+    arith_begin(&a, r->bits);
+    for (int param = first; param < end; param++)
+        if (p->setup.coded[fba_fap(param)] && !read_symbol(r, &a, p, param, intra))
+            return fail(r, FAP_E_LIMIT, r->bits->at, "P plane",
+                        "more different symbols than symbol_memory holds");
+    arith_end(&a);
+    return check_bits(r, "arithmetic code");
+}
+
+static int is_out(int32_t select, int32_t max)
+{
+    return select < 0 || select > max;
+}
+
+static fap_err read_viseme(fba_face_reader *r, fba_face *p, int intra)
+{
+    const fap_err err = read_run(r, p, FBA_VISEME_SELECT1, FBA_EXPRESSION_SELECT1, intra);
+    if (err != FAP_OK)
+        return err;
+    p->viseme_def = (uint8_t)fap_bits_get(r->bits, 1);
+    if (is_out(p->value[FBA_VISEME_SELECT1], FAP_VISEME_COUNT) ||
+        is_out(p->value[FBA_VISEME_SELECT2], FAP_VISEME_COUNT))
+        return fail(r, FAP_E_BITSTREAM, r->bits->at, "viseme_select", "no such viseme");
+    return check_bits(r, "viseme_def");
+}
+
+static fap_err read_expression(fba_face_reader *r, fba_face *p, int intra)
+{
+    const fap_err err = read_run(r, p, FBA_EXPRESSION_SELECT1, FBA_FIRST_FAP, intra);
+    if (err != FAP_OK)
+        return err;
+    p->init_face = (uint8_t)fap_bits_get(r->bits, 1);
+    p->expression_def = (uint8_t)fap_bits_get(r->bits, 1);
+    if (is_out(p->value[FBA_EXPRESSION_SELECT1], FAP_EXPRESSION_COUNT) ||
+        is_out(p->value[FBA_EXPRESSION_SELECT2], FAP_EXPRESSION_COUNT))
+        return fail(r, FAP_E_BITSTREAM, r->bits->at, "expression_select", "no such expression");
+    return check_bits(r, "expression_def");
+}
+
+static fap_err read_params(fba_face_reader *r, fba_face *p, int intra)
+{
+    fap_err err = FAP_OK;
+
+    if (p->setup.coded[1])
+        err = read_viseme(r, p, intra);
+    if (err == FAP_OK && p->setup.coded[2])
+        err = read_expression(r, p, intra);
+    if (err == FAP_OK)
+        err = read_run(r, p, FBA_FIRST_FAP, FBA_PARAMS, intra);
+    return err;
+}
+
+fap_err fba_face_read(fba_face_reader *r, fba_face *face, int intra)
+{
+    memset(face->fap_bits, 0, sizeof face->fap_bits);
+    if (intra) {
+        for (int param = 0; param < FBA_PARAMS; param++)
+            model_clear(r->pool, &r->model[param]);
+        const fap_err err = read_setup(r, face);
+        if (err != FAP_OK)
+            return err;
+    }
+    return read_params(r, face, intra);
+}
+
+/* --- frames
+ * -------------------------------------------------------------------------------------------------------- */
+
+static uint8_t clamp_strength(int32_t v)
+{
+    return (uint8_t)(v < 0 ? 0 : v > FRAME_STRENGTH_MAX ? FRAME_STRENGTH_MAX : v);
+}
+
+static fap_viseme viseme_of(const fba_face *face)
+{
+    const int32_t *v = face->value;
+    return (fap_viseme){ (uint8_t)v[FBA_VISEME_SELECT1], (uint8_t)v[FBA_VISEME_SELECT2],
+                         clamp_strength(v[FBA_VISEME_BLEND]), face->viseme_def };
+}
+
+static fap_expression expression_of(const fba_face *face)
+{
+    const int32_t *v = face->value;
+    return (fap_expression){ (uint8_t)v[FBA_EXPRESSION_SELECT1],
+                             clamp_strength(v[FBA_EXPRESSION_INTENSITY1]),
+                             (uint8_t)v[FBA_EXPRESSION_SELECT2],
+                             clamp_strength(v[FBA_EXPRESSION_INTENSITY2]),
+                             face->init_face,
+                             face->expression_def };
+}
+
+static void show_coded(const fba_face *face, fap_frame *f)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (face->setup.coded[fap]) {
+            f->state[fap] = FAP_CODED;
+            f->value[fap] = fap > 2 ? face->value[FBA_FIRST_FAP + fap - 3] : 0;
+        }
+    if (face->setup.coded[1])
+        f->viseme = viseme_of(face);
+    if (face->setup.coded[2])
+        f->expression = expression_of(face);
+}
+
+static int is_left_to_us(const fba_face *face, int fap)
+{
+    return !face->setup.coded[fap] && face->setup.mask_type[fap_info_get(fap)->group] == FBA_MASK_INTERPOLATE;
+}
+
+/* Mask type 2: the decoder finds the values. Those it cannot find stay held. */
+static void show_interpolated(const fba_face *face, fap_frame *f)
+{
+    fap_frame derived = *f;
+
+    for (int fap = 3; fap <= FAP_COUNT; fap++)
+        if (is_left_to_us(face, fap))
+            derived.state[fap] = FAP_ABSENT;
+    fap_derive(&derived);
+    for (int fap = 3; fap <= FAP_COUNT; fap++)
+        if (is_left_to_us(face, fap) && derived.state[fap] == FAP_DERIVED) {
+            f->state[fap] = FAP_DERIVED;
+            f->value[fap] = derived.value[fap];
+        }
+}
+
+void fba_face_show(const fba_face *face, fap_frame *frame)
+{
+    show_coded(face, frame);
+    show_interpolated(face, frame);
+}

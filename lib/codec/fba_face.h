@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Face data of a plane: what it sets and what values it carries. The caller reads into a copy and keeps it
+ * when all went well.
+ */
+#ifndef LIB_CODEC_FBA_FACE_H
+#define LIB_CODEC_FBA_FACE_H
+
+#include <fap/error.h>
+
+#include "codec/fba.h"
+#include "codec/models.h"
+
+typedef struct fba_face {
+    int has_ranges; /* the defaults were installed */
+    fba_setup setup;
+    int32_t value[FBA_PARAMS];
+    uint8_t viseme_def, init_face, expression_def;
+    uint16_t fap_bits[FAP_COUNT + 1]; /* what each took in the last plane */
+} fba_face;
+
+/* Where it reads and what it needs; what went wrong, and where. */
+typedef struct fba_face_reader {
+    fap_bits *bits;
+    model *model; /* [FBA_PARAMS], of P planes */
+    model_pool *pool;
+    int default_bound;
+    uint64_t at;
+    const char *what, *why;
+} fba_face_reader;
+
+/* FAP_OK; FAP_E_BITSTREAM, FAP_E_UNSUPPORTED or FAP_E_LIMIT, and the reader says why. */
+fap_err fba_face_read(fba_face_reader *r, fba_face *face, int intra);
+/* The face in a frame: coded FAPs, and those that the stream leaves to the decoder. Others stay as they are.
+ */
+void fba_face_show(const fba_face *face, fap_frame *frame);
+
+#endif

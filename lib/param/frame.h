@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* What the codecs ask of a frame before they write it. */
+#ifndef LIB_PARAM_FRAME_H
+#define LIB_PARAM_FRAME_H
+
+#include <fap/frame.h>
+
+enum { FRAME_STRENGTH_MAX = 63 }; /* viseme_blend and expression_intensity */
+
+/* Viseme and expression, where coded, are within their ranges. */
+int fap_frame_is_sound(const fap_frame *f);
+
+#endif
