@@ -94,8 +94,7 @@ static void split_quad(const mh_face *f, const uint32_t q[4], uint32_t out[2][3]
 /* 1 from the jaw up, 0 where the neck was cut, by the place in the file, which identities do not change. */
 static uint8_t head_weight(const float base_dm[3])
 {
-    const float cut = 5.8f + 0.9f * fmaxf(0, fabsf(base_dm[0]) - 0.42f), jaw = fmaxf(6.2f, cut + 0.2f);
-    const float t = fminf(1, fmaxf(0, (base_dm[1] - cut - 0.01f) / (jaw - cut)));
+    const float t = fminf(1, fmaxf(0, (mh_height_over_cut(base_dm) - 0.01f) / 0.42f));
     return (uint8_t)lrintf(255 * t * t * (3 - 2 * t));
 }
 

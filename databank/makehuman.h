@@ -59,6 +59,8 @@ typedef struct mh_patch {
     float (*uv)[2];
 } mh_patch;
 
+/* Height over the plane in which the neck is cut, decimetres in base.obj's own axes. */
+float mh_height_over_cut(const float base_dm[3]);
 fap_err mh_cut(mh_patch *patch, const mh_source *s, enum mh_patch_id id);
 void mh_patch_free(mh_patch *patch);
 /* A field by base.obj's numbers onto the refined patch. */

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* Cuts one part out of base.obj and refines it. Skin ends at the neck; teeth are coarse ridges and take two
  * steps. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "databank/makehuman.h"
 
-static const float neck_dm = 5.8f;
+/* The plane rises to the back: a level one would leave the tips of the shoulders. */
+float mh_height_over_cut(const float base_dm[3])
+{
+    const float front_y = 5.75f, front_z = 0.7f, rise = 0.32f;
+    return base_dm[1] - front_y + rise * (base_dm[2] - front_z);
+}
 
 static const struct recipe {
     const char *group;
@@ -28,18 +32,15 @@ typedef struct cutting {
     float (*corner_uv)[2];
 } cutting;
 
-/* Height in the measure of the cut, which rises sideways: a level one would leave the tips of the shoulders.
- */
 static float height(const cutting *c, uint32_t corner)
 {
-    const float *p = c->s->base[c->s->obj.vertex[corner]];
-    return p[1] - 0.9f * fmaxf(0, fabsf(p[0]) - 0.42f);
+    return mh_height_over_cut(c->s->base[c->s->obj.vertex[corner]]);
 }
 
 static int reaches_above(const cutting *c, const fap_obj_face *f)
 {
     for (uint32_t i = 0; i < f->count; i++)
-        if (height(c, f->first + i) > neck_dm)
+        if (height(c, f->first + i) > 0)
             return 1;
     return 0;
 }
@@ -72,12 +73,12 @@ static void slide(cutting *c, uint32_t low, uint32_t high)
     mh_patch *p = c->patch;
     const float y = height(c, low), up = height(c, high);
 
-    if (y >= neck_dm || up <= neck_dm)
+    if (y >= 0 || up <= 0)
         return;
     mh_slide *s = &p->slide[p->compact[c->s->obj.vertex[low]]];
-    if (s->part > 0 && (neck_dm - y) / (up - y) >= s->part)
+    if (s->part > 0 && -y / (up - y) >= s->part)
         return;
-    *s = (mh_slide){ c->s->obj.vertex[high], (neck_dm - y) / (up - y) };
+    *s = (mh_slide){ c->s->obj.vertex[high], -y / (up - y) };
 }
 
 /* Along the edges of the face; where none leaves the plane's lower side, across it. */
