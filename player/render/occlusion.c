@@ -8,7 +8,7 @@
 
 #include "player/render/occlusion.h"
 
-enum { SIZE = 384, DIRECTIONS = 48 };
+enum { SIZE = 384, DIRECTIONS = 64, SMOOTHINGS = 3 };
 
 /*
  * The face as it is measured: jaw and lips a little open, else the inside of the mouth and the rims of the
@@ -162,6 +162,24 @@ static void look_around(gl_functions *gl, const cloud *c, const fap_mesh *mesh, 
     }
 }
 
+/* Vertices at a grazing angle are seen or not by a hair; the mean with their neighbours hides that. */
+static void smooth(const fap_mesh *mesh, float *open, float *sum, float *count)
+{
+    memset(sum, 0, mesh->vertex_count * sizeof *sum);
+    memset(count, 0, mesh->vertex_count * sizeof *count);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *v = mesh->triangle + 3 * (size_t)t;
+        const float mean = (open[v[0]] + open[v[1]] + open[v[2]]) / 3;
+        for (int i = 0; i < 3; i++) {
+            sum[v[i]] += mean;
+            count[v[i]]++;
+        }
+    }
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        if (count[i] > 0)
+            open[i] = sum[i] / count[i];
+}
+
 fap_err occlusion_measure(gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
                           float *open)
 {
@@ -180,6 +198,8 @@ fap_err occlusion_measure(gl_functions *gl, const fap_bank *bank, GLuint index_b
         look_around(gl, &c, mesh, index_buffer, program, depth, sum, open);
         for (uint32_t i = 0; i < c.count; i++)
             open[i] = sum[i] > 0 ? open[i] / sum[i] : 1;
+        for (int i = 0; i < SMOOTHINGS; i++)
+            smooth(mesh, open, sum, c.normal);
     }
     free(c.normal);
     free(c.position);
