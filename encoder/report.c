@@ -58,7 +58,7 @@ static void say_head(const run_report *rep, const fap_capture_report *r)
     for (uint32_t i = 0; i < r->rigid_count; i++)
         add(&rigid, ", ", rep->take->name[r->rigid[i]]);
     if (r->rigid_count)
-        tool_note("head: %s (%s), %.2f mm rms", rigid.text, fap_origin_name(r->rigid_origin),
+        tool_note("head: rigid markers %s (%s), %.2f mm rms", rigid.text, fap_origin_name(r->rigid_origin),
                   r->rigid_rms_mm);
     if (r->frames_without_head)
         tool_note("  not seen in %u frames", (unsigned)r->frames_without_head);

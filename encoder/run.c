@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/fapu_file.h"
 #include "common/file.h"
-#include "encoder/fapu_file.h"
 #include "encoder/run.h"
 
 static const size_t max_input = (size_t)1 << 30, max_table = (size_t)1 << 20;

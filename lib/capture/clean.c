@@ -9,7 +9,7 @@
 
 #include <fap/studio/clean.h>
 
-enum { HALF_WINDOW = 4, WINDOW = 2 * HALF_WINDOW + 1 };
+enum { HALF_WINDOW = 4 };
 
 void fap_clean_config_init(fap_clean_config *cfg)
 {
@@ -42,34 +42,60 @@ static float median(float *v, int n)
     return n % 2 ? v[n / 2] : 0.5f * (v[n / 2 - 1] + v[n / 2]);
 }
 
-/* Valid values of one axis around a frame; @p n of them. */
-static int neighbours(const fap_take *take, uint32_t frame, uint32_t point, int axis, float *v)
+static const float *valid_sample(const fap_take *take, int64_t frame, uint32_t point)
 {
-    const uint32_t first = frame > HALF_WINDOW ? frame - HALF_WINDOW : 0;
+    return frame >= 0 && frame < take->frame_count ? fap_take_sample(take, (uint32_t)frame, point) : NULL;
+}
+
+/* Where the frames before and after say that a point should be: a pair at equal distance sees any steady
+ * motion. */
+static int predictions(const fap_take *take, uint32_t frame, uint32_t point, int axis, float *v)
+{
     int n = 0;
 
-    for (uint32_t f = first; f <= frame + HALF_WINDOW && f < take->frame_count; f++)
-        if (take->valid[at(take, f, point)])
-            v[n++] = take->xyz[at(take, f, point)][axis];
+    for (int k = 1; k <= HALF_WINDOW; k++) {
+        const float *a = valid_sample(take, (int64_t)frame - k, point),
+                    *b = valid_sample(take, (int64_t)frame + k, point);
+        if (a && b)
+            v[n++] = 0.5f * (a[axis] + b[axis]);
+    }
     return n;
 }
 
-/* Times 1.4826 the median deviation of a normal distribution is its standard deviation; five of them never
- * happen. */
+/* How far the sample is from the middle of those on one side. */
+static float off_side(const fap_take *take, uint32_t frame, uint32_t point, int axis, int direction)
+{
+    float v[HALF_WINDOW];
+    int n = 0;
+
+    for (int k = 1; k <= HALF_WINDOW; k++) {
+        const float *x = valid_sample(take, (int64_t)frame + direction * k, point);
+        if (x)
+            v[n++] = x[axis];
+    }
+    return n ? fabsf(take->xyz[at(take, frame, point)][axis] - median(v, n)) : 0;
+}
+
+/*
+ * Off the predictions by more than they differ among themselves: times 1.4826 a median deviation is a
+ * standard deviation, and five of those never happen. Off both sides as well: a step belongs to one of them.
+ */
 static int stands_out(const fap_take *take, uint32_t frame, uint32_t point, int axis, float least_mm)
 {
     const float x = take->xyz[at(take, frame, point)][axis];
-    float v[WINDOW], deviation[WINDOW];
-    const int n = neighbours(take, frame, point, axis, v);
+    float v[HALF_WINDOW], deviation[HALF_WINDOW];
+    const int n = predictions(take, frame, point, axis, v);
 
-    if (n < 5)
+    if (n < 2)
         return 0;
     const float middle = median(v, n);
     if (fabsf(x - middle) <= least_mm)
         return 0;
     for (int i = 0; i < n; i++)
         deviation[i] = fabsf(v[i] - middle);
-    return fabsf(x - middle) > least_mm + 5 * 1.4826f * median(deviation, n);
+    return fabsf(x - middle) > least_mm + 5 * 1.4826f * median(deviation, n) &&
+           off_side(take, frame, point, axis, -1) > least_mm &&
+           off_side(take, frame, point, axis, 1) > least_mm;
 }
 
 /* Judged on what was measured: the medians still see the spikes that were marked, and survive them. */

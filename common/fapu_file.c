@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "common/file.h"
-#include "encoder/fapu_file.h"
+#include "common/fapu_file.h"
 
 static const char *const names[5] = { "IRISD", "ES", "ENS", "MNS", "MW" };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* A face's FAPU as a text file: "ES 62.5" a line, in millimetres. */
-#ifndef ENCODER_FAPU_FILE_H
-#define ENCODER_FAPU_FILE_H
+#ifndef COMMON_FAPU_FILE_H
+#define COMMON_FAPU_FILE_H
 
 #include <stddef.h>
 

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* TRC, Nexus, Motive and plain tables: what each has of its own, what is missing, and what cannot be read. */
+#include "capture/take_test.h"
+
+#include <math.h>
+
+static fap_take *read_ok(const char *text)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    fap_take *take;
+
+    if (test_read_text(&take, text, where) != FAP_OK)
+        fail_msg("%s", where);
+    return take;
+}
+
+static void assert_refused(const char *text, fap_err err, const char *word)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    fap_take *take;
+
+    assert_int_equal(test_read_text(&take, text, where), err);
+    assert_null(take);
+    if (!strstr(where, word))
+        fail_msg("'%s' does not say '%s'", where, word);
+}
+
+static void assert_sample(const fap_take *take, uint32_t frame, uint32_t point, float x, float y, float z)
+{
+    const float *v = fap_take_sample(take, frame, point);
+
+    assert_non_null(v);
+    assert_float_equal(v[0], x, 1e-4);
+    assert_float_equal(v[1], y, 1e-4);
+    assert_float_equal(v[2], z, 1e-4);
+}
+
+#define TRC_HEAD                                                                                             \
+    "PathFileType\t4\t(X/Y/"                                                                                 \
+    "Z)\tx.trc\r\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\r\n60.00\t60\t3\t66\tcm\r\n"            \
+    "Frame#\tTime\tChin\t\t\tMouth L\t\t\r\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\r\n"
+
+TEST(trc, names_decide_how_many_points_there_are)
+{
+    fap_take *take =
+        read_ok(TRC_HEAD "\r\n1\t0.0\t1\t2\t3\t4\t5\t6\t9\t9\t9\r\n2\t0.017\t\t\t\t4.5\t5\t6e-1\r\n"
+                         "3\t0.033\t0\t0\t0\t7\t8\t9");
+
+    assert_string_equal(take->format, "trc");
+    assert_int_equal(take->point_count, 2);
+    assert_int_equal(take->frame_count, 3);
+    assert_string_equal(take->name[1], "Mouth L");
+    assert_float_equal(take->rate_hz, 60, 1e-9);
+    assert_sample(take, 0, 0, 10, 20, 30);
+    assert_null(fap_take_sample(take, 1, 0));
+    assert_sample(take, 1, 1, 45, 50, 6);
+    assert_null(fap_take_sample(take, 2, 0)); /* exactly 0,0,0 */
+    assert_sample(take, 2, 1, 70, 80, 90);
+    fap_take_close(&take);
+}
+
+TEST(trc, absent_rows_are_gaps)
+{
+    fap_take *take =
+        read_ok(TRC_HEAD "1\t0.0\t1\t2\t3\t4\t5\t6\n2\t0.0\t1\t2\t3\t4\t5\t6\n5\t0.0\t1\t2\t3\t4\t5\t6\n");
+
+    assert_int_equal(take->frame_count, 5);
+    assert_null(fap_take_sample(take, 2, 0));
+    assert_sample(take, 4, 0, 10, 20, 30);
+    fap_take_close(&take);
+}
+
+TEST(trc, what_is_cut_or_nameless_is_refused_in_words)
+{
+    assert_refused("PathFileType\t4\n", FAP_E_SYNTAX, "line 3");
+    assert_refused("PathFileType\t4\nDataRate\n60\nFrame#\tTime\t\n", FAP_E_NOT_FOUND, "no marker");
+    assert_refused("PathFileType\t4\nDataRate\n60\nSomething\n", FAP_E_SYNTAX, "line 4");
+    assert_refused(TRC_HEAD, FAP_E_NOT_FOUND, "not one row");
+    assert_refused(TRC_HEAD "1\t0\t\t\t\t\t\t\n", FAP_E_NOT_FOUND, "missing");
+}
+
+TEST(nexus, the_trajectories_are_found_behind_other_sections)
+{
+    fap_take *take =
+        read_ok("Devices\n2000\n,,Force\nFrame,Sub Frame,Fx\n,,N\n1,0,5\n\nTrajectories,,,,,\n100,,,,,\n"
+                ",,Anna:Chin,,,Anna:*7,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n"
+                "1,0,1,2,3,4,5,6\n2,0,,,,7,8,9\n,,,,,\n9,0,1,1,1,1,1,1\n");
+
+    assert_string_equal(take->format, "nexus");
+    assert_float_equal(take->rate_hz, 100, 1e-9);
+    assert_int_equal(take->frame_count, 2);
+    assert_int_equal(fap_take_find(take, "chin"), 0);
+    assert_null(fap_take_sample(take, 1, 0));
+    assert_sample(take, 1, 1, 7, 8, 9);
+    fap_take_close(&take);
+}
+
+TEST(nexus, semicolons_and_decimal_commas_are_read)
+{
+    fap_take *take =
+        read_ok("Trajectories\n100\n;;Chin;;\nFrame;Sub Frame;X;Y;Z\n;;m;m;m\n1;0;0,5;1,25;-2\n");
+
+    assert_sample(take, 0, 0, 500, 1250, -2000);
+    fap_take_close(&take);
+}
+
+#define MOTIVE_HEAD "Format Version,1.23,Export Frame Rate,120.0,Length Units,Centimeters\n\n"
+
+TEST(motive, markers_are_kept_and_bodies_are_not)
+{
+    fap_take *take =
+        read_ok(MOTIVE_HEAD
+                ",Type,Rigid Body,Rigid Body,Rigid Body,Marker,Marker,Marker,Marker,Marker,Marker\n"
+                ",Name,Head,Head,Head,Face:Chin,Face:Chin,Face:Chin,Unlabeled 9,Unlabeled 9,Unlabeled 9\n"
+                ",ID,\"A\",\"A\",\"A\",\"B\",\"B\",\"B\",\"C\",\"C\",\"C\"\n"
+                ",,Position,Position,Position,Position,Position,Position,Position,Position,Position\n"
+                "Frame,Time (Seconds),X,Y,Z,X,Y,Z,X,Y,Z\n0,0.0,9,9,9,1,2,3,8,8,8\n1,0.0083,9,9,9,,,,8,8,8\n");
+
+    assert_string_equal(take->format, "motive");
+    assert_int_equal(take->point_count, 1);
+    assert_string_equal(take->name[0], "Face:Chin");
+    assert_sample(take, 0, 0, 10, 20, 30);
+    assert_null(fap_take_sample(take, 1, 0));
+    assert_float_equal(take->rate_hz, 120, 1e-9);
+    fap_take_close(&take);
+}
+
+TEST(motive, a_take_without_markers_says_so)
+{
+    assert_refused(MOTIVE_HEAD "Frame,Time,X,Y,Z\n0,0,1,2,3\n", FAP_E_NOT_FOUND, "Marker");
+    assert_refused(
+        MOTIVE_HEAD
+        ",,Marker,Marker,Marker\n,,Unlabeled:1,Unlabeled:1,Unlabeled:1\n,,Position,Position,Position\n"
+        "Frame,Time,X,Y,Z\n0,0,1,2,3\n",
+        FAP_E_NOT_FOUND, "unlabeled");
+}
+
+TEST(table, columns_are_found_by_name_in_any_order_and_style)
+{
+    static const char *const texts[] = {
+        "\xef\xbb\xbf"
+        "frame;8.3_x;8.3_y;8.3_z;note\n1;1,5;2;3;a\n2;NA;2;3;b\n",
+        "time,8.3.Z,8.3.X,8.3.Y\n0,3,1.5,2\n0.04,3,nan,2\n",
+        "# made by hand\n\n8.3 X\t8.3 Y\t8.3 Z\n1.5\t2\t3\n-\t2\t3\n",
+    };
+
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        fap_take *take = read_ok(texts[i]);
+        assert_string_equal(take->format, "table");
+        assert_string_equal(take->name[0], "8.3");
+        assert_int_equal(take->frame_count, 2);
+        assert_float_equal(fap_take_sample(take, 0, 0)[0] / fap_take_sample(take, 0, 0)[2], 0.5, 1e-5);
+        assert_null(fap_take_sample(take, 1, 0));
+        assert_false(take->unit_known);
+        fap_take_close(&take);
+    }
+}
+
+TEST(table, times_give_the_rate)
+{
+    fap_take *take = read_ok("time_ms,a_x,a_y,a_z,b_x,b_y,b_z\n0,0,0,0,100,0,0\n33,0,0,0,100,0,0\n67,0,0,0,"
+                             "100,0,0\n100,0,0,0,100,0,0\n");
+
+    assert_float_equal(take->rate_hz, 30, 1e-6);
+    assert_sample(take, 2, 1, 100, 0, 0); /* a table says missing by an empty cell, so 0,0,0 is a place */
+    assert_sample(take, 2, 0, 0, 0, 0);
+    fap_take_close(&take);
+}
+
+TEST(table, the_user_knows_rate_and_unit_better)
+{
+    static const char text[] = "a_x,a_y,a_z\n1,2,3\n4,5,6\n";
+    fap_take_config cfg;
+    fap_take *take;
+
+    fap_take_config_init(&cfg);
+    cfg.rate_hz = 48;
+    cfg.mm_per_unit = 2;
+    assert_int_equal(fap_take_read(&take, text, sizeof text - 1, &cfg, NULL), FAP_OK);
+    assert_float_equal(take->rate_hz, 48, 0);
+    assert_sample(take, 1, 0, 8, 10, 12);
+    assert_true(take->unit_known);
+    fap_take_close(&take);
+}
+
+TEST(table, names_that_repeat_or_are_too_long_stay_apart)
+{
+    fap_take *take = read_ok("a_x,a_y,a_z,A_x,A_y,A_z\n1,2,3,4,5,6\n");
+
+    assert_string_equal(take->name[0], "a");
+    assert_string_equal(take->name[1], "A_2");
+    assert_sample(take, 0, 0, 1 * (float)take->mm_per_unit, 2 * (float)take->mm_per_unit,
+                  3 * (float)take->mm_per_unit);
+    fap_take_close(&take);
+}
+
+TEST(take, what_is_no_take_is_refused)
+{
+    assert_refused("", FAP_E_UNKNOWN_FORMAT, "C3D");
+    assert_refused("hello\nworld\n", FAP_E_UNKNOWN_FORMAT, "C3D");
+    assert_refused("2.1 test 25 1\n0 1\n", FAP_E_UNKNOWN_FORMAT, "TRC");
+}
+
+TEST(take, units_are_known_by_their_beginnings)
+{
+    assert_float_equal(fap_take_unit_mm("mm"), 1, 0);
+    assert_float_equal(fap_take_unit_mm(" Meters"), 1000, 0);
+    assert_float_equal(fap_take_unit_mm("mete"), 1000, 0);
+    assert_float_equal(fap_take_unit_mm("m  "), 1000, 0);
+    assert_float_equal(fap_take_unit_mm("Centimeters"), 10, 0);
+    assert_float_equal(fap_take_unit_mm("deg"), 0, 0);
+    assert_float_equal(fap_take_unit_mm(""), 0, 0);
+}
+
+TEST(take, sizes_that_cannot_be_are_refused_before_allocating)
+{
+    fap_take *take;
+
+    assert_int_equal(fap_take_create(&take, FAP_TAKE_MAX_POINTS + 1, 1, NULL), FAP_E_LIMIT);
+    assert_int_equal(fap_take_create(&take, 4096, UINT32_MAX, NULL), FAP_E_LIMIT);
+    assert_int_equal(fap_take_create(&take, 0, 1, NULL), FAP_E_ARG);
+    assert_null(take);
+}
+
+TEST(take, real_text_files_read_or_say_why_not)
+{
+    static const struct {
+        const char *name;
+        fap_err err;
+        uint32_t points, frames;
+    } files[] = {
+        { "format_samples/Anto.trc", FAP_OK, 34, 128 },
+        { "format_samples/T.trc", FAP_OK, 41, 89 },
+        { "format_samples/Truncated.trc", FAP_E_SYNTAX, 0, 0 },
+        { "format_samples/10002-20130626160334-Unnamed.trc", FAP_E_NOT_FOUND, 0, 0 },
+        { "format_samples/nexus_markers.csv", FAP_OK, 51, 580 },
+        { "format_samples/sample_optitrack_take.csv", FAP_OK, 3, 250 },
+        { "optical_animface/jaw_60hz.trc", FAP_OK, 41, 1590 },
+        { "optical_animface/eyebrows_60hz_nexus.csv", FAP_OK, 41, 902 },
+        { "optical_blenderface/Subject_01.csv", FAP_OK, 16, 1714 },
+        { "ema/F01_B01_S01_R01_N.mat", FAP_E_UNKNOWN_FORMAT, 0, 0 },
+    };
+
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        fap_take *take;
+        char where[FAP_ERROR_TEXT_SIZE];
+        assert_int_equal(test_read_shared(&take, files[i].name, where), files[i].err);
+        assert_true(take ? !*where : *where != 0);
+        if (take && (take->point_count != files[i].points || take->frame_count != files[i].frames))
+            fail_msg("%s: %u points, %u frames", files[i].name, take->point_count, take->frame_count);
+        fap_take_close(&take);
+    }
+}
+
+TEST(take, the_same_motion_is_the_same_in_every_format)
+{
+    fap_take *a, *b;
+
+    assert_int_equal(test_read_shared(&a, "optical_animface/jaw_60hz.c3d", NULL), FAP_OK);
+    assert_int_equal(test_read_shared(&b, "optical_animface/jaw_60hz.trc", NULL), FAP_OK);
+    for (size_t i = 0; i < (size_t)a->point_count * a->frame_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            assert_float_equal(a->xyz[i][axis], b->xyz[i][axis], 2e-4);
+    fap_take_close(&a);
+    fap_take_close(&b);
+}
