@@ -89,7 +89,8 @@ $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC)))
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
-$(B)/fapbank: $(call obj,$(BANK_SRC)) $(B)/libfap-render.a $(BASE)
+$(B)/libfap-databank.a: $(call obj,$(filter-out databank/main.c,$(BANK_SRC)))
+$(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(RENDER_LIBS) $(STUDIO_LIBS) -lm
 
@@ -98,7 +99,7 @@ FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildc
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
 ALL_LIBS := $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
 
-$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
+$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
 $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-render.a $(BASE)

