@@ -6,7 +6,7 @@ enum { Q1 = 16384, Q2 = 32768, Q3 = 49152, TOP = 65535, CODE_BITS = 16, MAX_ZERO
 
 static uint32_t stream_bit(arith_decoder *a)
 {
-    return fap_bits_peek(a->bits, a->at++, 1);
+    return fap_bits_peek_1(a->bits, a->at++);
 }
 
 /* Stuffing is dropped in front of the bit that needs it, so that a run may end right behind 22 zeros. */
@@ -24,14 +24,14 @@ static uint32_t code_bit(arith_decoder *a)
     return bit;
 }
 
-void arith_begin(arith_decoder *a, fap_bits *bits)
+void fap_arith_begin(arith_decoder *a, fap_bits *bits)
 {
     *a = (arith_decoder){ .bits = bits, .high = TOP, .at = bits->at };
     for (int i = 0; i < CODE_BITS; i++)
         a->code = a->code << 1 | code_bit(a);
 }
 
-uint32_t arith_target(const arith_decoder *a, uint32_t total)
+uint32_t fap_arith_target(const arith_decoder *a, uint32_t total)
 {
     return ((a->code - a->low + 1) * total - 1) / (a->high - a->low + 1);
 }
@@ -57,7 +57,7 @@ static void narrow(uint32_t *low, uint32_t *high, arith_interval i)
     *low = *low + span * i.low / i.total;
 }
 
-void arith_take(arith_decoder *a, arith_interval i)
+void fap_arith_take(arith_decoder *a, arith_interval i)
 {
     uint32_t offset;
 
@@ -71,7 +71,7 @@ void arith_take(arith_decoder *a, arith_interval i)
 }
 
 /* The encoder emitted shifts + 2 code bits; the decoder has read 14 more. */
-void arith_end(arith_decoder *a)
+void fap_arith_end(arith_decoder *a)
 {
     const uint64_t last = a->shifts + FLUSH_BITS, at = a->behind[last % ARITH_HISTORY];
     fap_bits *b = a->bits;
@@ -103,12 +103,12 @@ static void emit_with_pending(arith_encoder *a, unsigned bit)
         emit(a, !bit);
 }
 
-void arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits)
+void fap_arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits)
 {
     *a = (arith_encoder){ .bits = bits, .high = TOP };
 }
 
-void arith_encoder_put(arith_encoder *a, arith_interval i)
+void fap_arith_encoder_put(arith_encoder *a, arith_interval i)
 {
     uint32_t offset;
 
@@ -123,7 +123,7 @@ void arith_encoder_put(arith_encoder *a, arith_interval i)
     }
 }
 
-void arith_encoder_end(arith_encoder *a)
+void fap_arith_encoder_end(arith_encoder *a)
 {
     a->pending++;
     emit_with_pending(a, a->low >= Q1);

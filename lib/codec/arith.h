@@ -27,13 +27,13 @@ typedef struct arith_decoder {
     uint64_t false_stuffing; /* number of the code bit in front of which a stuffed bit was 0; 0: none */
 } arith_decoder;
 
-void arith_begin(arith_decoder *a, fap_bits *bits);
+void fap_arith_begin(arith_decoder *a, fap_bits *bits);
 /* In [0, total): the symbol whose interval holds it is the one coded. */
-uint32_t arith_target(const arith_decoder *a, uint32_t total);
+uint32_t fap_arith_target(const arith_decoder *a, uint32_t total);
 /* The symbol was found: go on behind it. */
-void arith_take(arith_decoder *a, arith_interval i);
+void fap_arith_take(arith_decoder *a, arith_interval i);
 /* Sets the bit reader exactly behind the run; marks it bad if the run was cut or its stuffing wrong. */
-void arith_end(arith_decoder *a);
+void fap_arith_end(arith_decoder *a);
 
 typedef struct arith_encoder {
     fap_bit_writer *bits;
@@ -41,8 +41,8 @@ typedef struct arith_encoder {
     unsigned zeros, pending;
 } arith_encoder;
 
-void arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits);
-void arith_encoder_put(arith_encoder *a, arith_interval i);
-void arith_encoder_end(arith_encoder *a);
+void fap_arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits);
+void fap_arith_encoder_put(arith_encoder *a, arith_interval i);
+void fap_arith_encoder_end(arith_encoder *a);
 
 #endif

@@ -73,8 +73,7 @@ TEST(bits, a_full_writer_stops)
     assert_int_equal(data[0], 0xFF);
 }
 
-/* --- models against a table of all counts
- * ----------------------------------------------------------------------------- */
+/* --- models against a table of all counts ----------------------------------------------------- */
 
 enum { SYMBOLS = 300 };
 
@@ -105,22 +104,22 @@ TEST(models, count_like_a_table_of_all_symbols)
     model_pool pool;
     model m = { 0 };
 
-    model_pool_init(&pool, node, SYMBOLS);
+    fap_model_pool_init(&pool, node, SYMBOLS);
     for (int k = 0; k < SYMBOLS; k++)
         count[k] = 1;
     for (int i = 0; i < 40000; i++) {
         const int symbol = (int)(draw(&seed) % 100 ? draw(&seed) % 20 + 100 : draw(&seed) % SYMBOLS);
         const arith_interval want = plain_interval(count, symbol);
-        arith_interval got = model_interval(&pool, &m, SYMBOLS, symbol);
+        arith_interval got = fap_model_interval(&pool, &m, SYMBOLS, symbol);
         assert_memory_equal(&got, &want, sizeof got);
         const uint32_t target = want.low + draw(&seed) % (want.high - want.low);
-        assert_int_equal(model_find(&pool, &m, SYMBOLS, target, &got), symbol);
+        assert_int_equal(fap_model_find(&pool, &m, SYMBOLS, target, &got), symbol);
         assert_memory_equal(&got, &want, sizeof got);
         plain_count(count, symbol);
-        assert_int_equal(model_count(&pool, &m, SYMBOLS, symbol), 1);
+        assert_int_equal(fap_model_count(&pool, &m, SYMBOLS, symbol), 1);
     }
-    model_clear(&pool, &m);
-    assert_int_equal(model_total(&m, SYMBOLS), SYMBOLS);
+    fap_model_clear(&pool, &m);
+    assert_int_equal(fap_model_total(&m, SYMBOLS), SYMBOLS);
 }
 
 TEST(models, say_when_their_memory_is_used_up)
@@ -129,18 +128,16 @@ TEST(models, say_when_their_memory_is_used_up)
     model_pool pool;
     model m = { 0 };
 
-    model_pool_init(&pool, node, 2);
-    assert_int_equal(model_count(&pool, &m, 10, 4), 1);
-    assert_int_equal(model_count(&pool, &m, 10, 5), 1);
-    assert_int_equal(model_count(&pool, &m, 10, 6), 0);
-    assert_int_equal(model_count(&pool, &m, 10, 5), 1);
-    model_clear(&pool, &m);
-    assert_int_equal(model_count(&pool, &m, 10, 6), 1);
+    fap_model_pool_init(&pool, node, 2);
+    assert_int_equal(fap_model_count(&pool, &m, 10, 4), 1);
+    assert_int_equal(fap_model_count(&pool, &m, 10, 5), 1);
+    assert_int_equal(fap_model_count(&pool, &m, 10, 6), 0);
+    assert_int_equal(fap_model_count(&pool, &m, 10, 5), 1);
+    fap_model_clear(&pool, &m);
+    assert_int_equal(fap_model_count(&pool, &m, 10, 6), 1);
 }
 
-/* --- coder
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- coder ------------------------------------------------------------------------------------ */
 
 enum { MAX_RUN = 80 };
 
@@ -166,23 +163,23 @@ static void put_run(fap_bit_writer *w, const run *r)
 {
     arith_encoder a;
 
-    arith_encoder_begin(&a, w);
+    fap_arith_encoder_begin(&a, w);
     for (int k = 0; k < r->count; k++)
-        arith_encoder_put(&a, r->i[k]);
-    arith_encoder_end(&a);
+        fap_arith_encoder_put(&a, r->i[k]);
+    fap_arith_encoder_end(&a);
 }
 
 static void check_run(fap_bits *b, const run *r)
 {
     arith_decoder a;
 
-    arith_begin(&a, b);
+    fap_arith_begin(&a, b);
     for (int k = 0; k < r->count; k++) {
-        const uint32_t target = arith_target(&a, r->i[k].total);
+        const uint32_t target = fap_arith_target(&a, r->i[k].total);
         assert_true(target >= r->i[k].low && target < r->i[k].high);
-        arith_take(&a, r->i[k]);
+        fap_arith_take(&a, r->i[k]);
     }
-    arith_end(&a);
+    fap_arith_end(&a);
     assert_int_equal(b->bad, BITS_FINE);
 }
 
@@ -248,10 +245,10 @@ TEST(arith, a_cut_run_is_noticed)
         fap_bit_writer_init(&w, data, sizeof data);
         put_run(&w, &r);
         fap_bits_init(&b, data, (size_t)(w.at - 1) / 8);
-        arith_begin(&a, &b);
+        fap_arith_begin(&a, &b);
         for (int k = 0; k < r.count; k++)
-            arith_take(&a, r.i[k]); /* the right symbols: only the length is wrong */
-        arith_end(&a);
+            fap_arith_take(&a, r.i[k]); /* the right symbols: only the length is wrong */
+        fap_arith_end(&a);
         assert_int_equal(b.bad, BITS_PAST_END);
     }
 }
@@ -269,9 +266,9 @@ TEST(arith, a_wrong_stuffed_bit_is_noticed)
     assert_int_equal(data[2], 2); /* 22 zeros and the 1 */
     data[2] = 0;
     fap_bits_init(&b, data, (size_t)(w.at + 7) / 8);
-    arith_begin(&a, &b);
+    fap_arith_begin(&a, &b);
     for (int k = 0; k < r.count; k++)
-        arith_take(&a, r.i[k]);
-    arith_end(&a);
+        fap_arith_take(&a, r.i[k]);
+    fap_arith_end(&a);
     assert_int_equal(b.bad, BITS_MARKER);
 }

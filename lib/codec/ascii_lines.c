@@ -4,7 +4,7 @@
 
 #include "codec/ascii_lines.h"
 
-void ascii_lines_init(ascii_lines *l, const fap_reader *in)
+void fap_ascii_lines_init(ascii_lines *l, const fap_reader *in)
 {
     l->in = *in;
     l->start = l->end = l->buffer;
@@ -54,7 +54,7 @@ static int undecided(const ascii_lines *l, const char *stop)
     return !l->finished && (stop == l->end || (*stop == '\r' && stop + 1 == l->end));
 }
 
-fap_err ascii_lines_next(ascii_lines *l, char **line, size_t *length)
+fap_err fap_ascii_lines_next(ascii_lines *l, char **line, size_t *length)
 {
     char *stop = find_end(l);
 

@@ -27,12 +27,12 @@ typedef struct ascii_lines {
     char buffer[ASCII_BUFFER + 1];
 } ascii_lines;
 
-void ascii_lines_init(ascii_lines *l, const fap_reader *in);
+void fap_ascii_lines_init(ascii_lines *l, const fap_reader *in);
 
 /*
  * The next line. A '\n' is put where it ends, so that parsers need one test to stop; there may be NULs before
  * it. FAP_E_END, FAP_E_IO, FAP_E_LIMIT (longer than ASCII_LINE_MAX). The line lives until the next call.
  */
-fap_err ascii_lines_next(ascii_lines *l, char **line, size_t *length);
+fap_err fap_ascii_lines_next(ascii_lines *l, char **line, size_t *length);
 
 #endif

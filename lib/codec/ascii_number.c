@@ -45,7 +45,7 @@ static int exponent(const char **p, const char *end, int *value)
     return 1;
 }
 
-int ascii_decimal(const char *p, const char *end, double *value)
+int fap_ascii_decimal(const char *p, const char *end, double *value)
 {
     const int negative = p < end && *p == '-';
     double v = 0;
@@ -84,14 +84,14 @@ static int is_not_finite(const char *p, const char *end)
     return is_word(p, end, "inf") || is_word(p, end, "nan");
 }
 
-ascii_kind ascii_odd_number(const char *p, const char *end, int32_t *value)
+ascii_kind fap_ascii_odd_number(const char *p, const char *end, int32_t *value)
 {
     double v;
 
     *value = 0;
     if (is_not_finite(p, end))
         return ASCII_ABSENT;
-    if (!ascii_decimal(p, end, &v))
+    if (!fap_ascii_decimal(p, end, &v))
         return ASCII_BAD;
     const double rounded = v < 0 ? v - 0.5 : v + 0.5;
     if (!(rounded > -2147483649.0 && rounded < 2147483648.0))

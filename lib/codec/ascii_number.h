@@ -35,14 +35,14 @@ static inline const char *ascii_skip_word(const char *p)
 }
 
 /* A decimal number with optional sign, decimals and exponent that fills [p, end). 0: it is none. */
-int ascii_decimal(const char *p, const char *end, double *value);
+int fap_ascii_decimal(const char *p, const char *end, double *value);
 
 /* Any number a producer was seen to write that fills [p, end). */
-ascii_kind ascii_odd_number(const char *p, const char *end, int32_t *value);
+ascii_kind fap_ascii_odd_number(const char *p, const char *end, int32_t *value);
 
 /*
  * The common number: up to nine digits, perhaps a minus sign, then a blank or the end of the line.
- * Gives the place behind it, or NULL for anything else: then ascii_odd_number() looks.
+ * Gives the place behind it, or NULL for anything else: then fap_ascii_odd_number() looks.
  */
 static inline const char *ascii_plain_number(const char *p, int32_t *value)
 {

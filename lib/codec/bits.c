@@ -12,7 +12,7 @@ uint32_t fap_bits_peek(const fap_bits *b, uint64_t at, int n)
     uint32_t v = 0;
 
     for (; n > 0; n--, at++)
-        v = v << 1 | (at < b->end ? b->data[at / 8] >> (7 - at % 8) & 1u : 0);
+        v = v << 1 | fap_bits_peek_1(b, at);
     return v;
 }
 

@@ -28,6 +28,10 @@ void fap_bits_marker(fap_bits *b);
 const char *fap_bits_why(const fap_bits *b);
 /* @p n bits (0 to 32) at @p at without moving; zeros past the end, which is no fault. */
 uint32_t fap_bits_peek(const fap_bits *b, uint64_t at, int n);
+static inline uint32_t fap_bits_peek_1(const fap_bits *b, uint64_t at)
+{
+    return at < b->end ? b->data[at / 8] >> (7 - at % 8) & 1u : 0;
+}
 
 typedef struct fap_bit_writer {
     uint8_t *data;

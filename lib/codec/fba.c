@@ -2,7 +2,7 @@
 /* See fba.h. */
 #include "codec/fba.h"
 
-int fba_fap(int param)
+int fap_fba_fap(int param)
 {
     if (param < FBA_EXPRESSION_SELECT1)
         return 1;
@@ -15,11 +15,11 @@ static int is_select(int param)
            param == FBA_EXPRESSION_SELECT2;
 }
 
-int32_t fba_step(int param, int quant)
+int32_t fap_fba_step(int param, int quant)
 {
     if (is_select(param) || quant == 0)
         return 1;
-    return param < FBA_FIRST_FAP ? quant : quant * fap_info_get(fba_fap(param))->quant_step;
+    return param < FBA_FIRST_FAP ? quant : quant * fap_info_get(fap_fba_fap(param))->quant_step;
 }
 
 /* Largest value of a parameter of FAPs 1 and 2, in levels. */
@@ -27,18 +27,18 @@ static int16_t high_level_max(int param, int quant)
 {
     if (!is_select(param))
         return (int16_t)(quant ? (FRAME_STRENGTH_MAX + quant / 2) / quant : FRAME_STRENGTH_MAX);
-    return fba_fap(param) == 1 ? FAP_VISEME_COUNT : FAP_EXPRESSION_COUNT;
+    return fap_fba_fap(param) == 1 ? FAP_VISEME_COUNT : FAP_EXPRESSION_COUNT;
 }
 
-fba_range fba_param_range(const fba_setup *s, int param, int intra)
+fba_range fap_fba_param_range(const fba_setup *s, int param, int intra)
 {
     if (param >= FBA_FIRST_FAP)
-        return s->range[intra ? FBA_I : FBA_P][fba_fap(param)];
+        return s->range[intra ? FBA_I : FBA_P][fap_fba_fap(param)];
     const int16_t max = high_level_max(param, s->quant);
     return (fba_range){ intra ? 0 : (int16_t)-max, max };
 }
 
-int fba_bound(int n, int quant)
+int fap_fba_bound(int n, int quant)
 {
     return n * FBA_BOUND_UNIT / (quant ? quant : 1);
 }
@@ -47,10 +47,10 @@ int fba_bound(int n, int quant)
 static int16_t rounded_bound(int value, int quant)
 {
     const int n = ((value < 0 ? -value : value) + FBA_BOUND_UNIT - 1) / FBA_BOUND_UNIT;
-    return (int16_t)fba_bound(value < 0 ? -n : n, quant);
+    return (int16_t)fap_fba_bound(value < 0 ? -n : n, quant);
 }
 
-void fba_default_ranges(fba_setup *s, int bound)
+void fap_fba_default_ranges(fba_setup *s, int bound)
 {
     const int quant = s->quant;
 

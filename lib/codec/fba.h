@@ -62,17 +62,17 @@ typedef struct fba_setup {
 } fba_setup;
 
 /* The FAP a parameter belongs to. */
-int fba_fap(int param);
+int fap_fba_fap(int param);
 /* What one level of a parameter is worth. */
-int32_t fba_step(int param, int quant);
-fba_range fba_param_range(const fba_setup *s, int param, int intra);
+int32_t fap_fba_step(int param, int quant);
+fba_range fap_fba_param_range(const fba_setup *s, int param, int intra);
 static inline int fba_range_size(fba_range r)
 {
     return r.max - r.min + 1;
 }
 /* A bound sent as @p n, in levels. */
-int fba_bound(int n, int quant);
+int fap_fba_bound(int n, int quant);
 /* The table's ranges; @p bound above 0: that one for all, as an encoder wrote that sends none. */
-void fba_default_ranges(fba_setup *s, int bound);
+void fap_fba_default_ranges(fba_setup *s, int bound);
 
 #endif

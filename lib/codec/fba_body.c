@@ -29,7 +29,7 @@ enum {
 };
 _Static_assert((int)SUM == (int)BODY_PARAMS, "bap_groups.csv has not 296 BAPs");
 
-void fba_body_init(fba_body *body)
+void fap_fba_body_init(fba_body *body)
 {
     for (int i = 0; i < BODY_PARAMS; i++)
         body->range[FBA_P][i] = body->range[FBA_I][i] = (fba_range){ -DEFAULT_BOUND, DEFAULT_BOUND };
@@ -91,26 +91,27 @@ static fap_err skip_symbols(fba_body *body, fap_bits *b, int intra, model_pool *
     arith_decoder a;
     arith_interval where;
 
-    arith_begin(&a, b);
+    fap_arith_begin(&a, b);
     for (int i = 0; i < BODY_PARAMS; i++) {
         if (!body->coded[i])
             continue;
         const model *m = intra ? &flat : &body->model[i];
         const int size = fba_range_size(body->range[intra ? FBA_I : FBA_P][i]);
-        const int symbol = model_find(pool, m, size, arith_target(&a, model_total(m, size)), &where);
-        arith_take(&a, where);
-        if (!intra && !model_count(pool, &body->model[i], size, symbol))
+        const int symbol =
+            fap_model_find(pool, m, size, fap_arith_target(&a, fap_model_total(m, size)), &where);
+        fap_arith_take(&a, where);
+        if (!intra && !fap_model_count(pool, &body->model[i], size, symbol))
             return FAP_E_LIMIT;
     }
-    arith_end(&a);
+    fap_arith_end(&a);
     return FAP_OK;
 }
 
-fap_err fba_body_skip(fba_body *body, fap_bits *b, int intra, model_pool *pool)
+fap_err fap_fba_body_skip(fba_body *body, fap_bits *b, int intra, model_pool *pool)
 {
     if (intra) {
         for (int i = 0; i < BODY_PARAMS; i++)
-            model_clear(pool, &body->model[i]);
+            fap_model_clear(pool, &body->model[i]);
         const fap_err err = read_intra_header(body, b);
         if (err != FAP_OK)
             return err;

@@ -20,9 +20,9 @@ typedef struct fba_body {
 } fba_body;
 
 /* The values that a body without ranges of its own starts from. */
-void fba_body_init(fba_body *body);
+void fap_fba_body_init(fba_body *body);
 /* FAP_OK, also when a read went wrong: b->bad says so. FAP_E_UNSUPPORTED, FAP_E_BITSTREAM, FAP_E_LIMIT else.
  */
-fap_err fba_body_skip(fba_body *body, fap_bits *b, int intra, model_pool *pool);
+fap_err fap_fba_body_skip(fba_body *body, fap_bits *b, int intra, model_pool *pool);
 
 #endif

@@ -14,7 +14,7 @@ static int stuffing(const fap_bits *b, uint64_t at)
     return at + (uint64_t)n <= b->end && fap_bits_peek(b, at, n) == (1u << (n - 1)) - 1 ? n : 0;
 }
 
-int fba_code_at(const fap_bits *b, uint64_t *at)
+int fap_fba_code_at(const fap_bits *b, uint64_t *at)
 {
     const int n = stuffing(b, *at);
 
@@ -25,20 +25,20 @@ int fba_code_at(const fap_bits *b, uint64_t *at)
     return (int)fap_bits_peek(b, *at + 24, 8);
 }
 
-void fba_seek_code(fap_bits *b)
+void fap_fba_seek_code(fap_bits *b)
 {
     b->at = (b->at + 7) / 8 * 8;
     while (b->at < b->end && !is_start_code(b, b->at))
         b->at += 8;
 }
 
-int fba_is_used_up(const fap_bits *b)
+int fap_fba_is_used_up(const fap_bits *b)
 {
     return b->at == b->end || (b->at + 8 >= b->end && b->at + (uint64_t)stuffing(b, b->at) == b->end);
 }
 
 /* A plane cannot begin with three 0s: fba_object_mask would be 0. */
-int fba_is_padding(const fap_bits *b)
+int fap_fba_is_padding(const fap_bits *b)
 {
     return b->end - b->at < 8 && !fap_bits_peek(b, b->at, (int)(b->end - b->at));
 }

@@ -10,12 +10,12 @@
 #include "codec/fba.h"
 
 /* The last byte of the start code at @p *at, behind stuffing or not; -1: none. *at moves to the code. */
-int fba_code_at(const fap_bits *b, uint64_t *at);
+int fap_fba_code_at(const fap_bits *b, uint64_t *at);
 /* Forward to the next start code or the end. */
-void fba_seek_code(fap_bits *b);
+void fap_fba_seek_code(fap_bits *b);
 /* Nothing is left but stuffing. */
-int fba_is_used_up(const fap_bits *b);
+int fap_fba_is_used_up(const fap_bits *b);
 /* What is left is less than a byte of 0s. */
-int fba_is_padding(const fap_bits *b);
+int fap_fba_is_padding(const fap_bits *b);
 
 #endif

@@ -104,8 +104,7 @@ static fap_err note(fap_decoder *d, deviation which)
     return FAP_OK;
 }
 
-/* --- plane header
- * --------------------------------------------------------------------------------------------------- */
+/* --- plane header ----------------------------------------------------------------------------- */
 
 static void read_frame_rate(fap_bits *b, fba_time_fields *t)
 {
@@ -159,22 +158,20 @@ static fap_err read_header(fap_decoder *d, plane_header *h)
     return check_bits(d, "plane header");
 }
 
-/* --- planes
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- planes ----------------------------------------------------------------------------------- */
 
 static fap_err read_face(fap_decoder *d, fba_face *copy, int intra)
 {
     fba_face_reader r = { &d->bits, d->model, &d->pool, d->cfg.default_bound, 0, "", "" };
 
     *copy = d->face;
-    const fap_err err = fba_face_read(&r, copy, intra);
+    const fap_err err = fap_fba_face_read(&r, copy, intra);
     return err == FAP_OK ? err : fail(d, err, r.at, r.what, r.why);
 }
 
 static fap_err read_body(fap_decoder *d, int intra)
 {
-    const fap_err err = fba_body_skip(&d->body, &d->bits, intra, &d->pool);
+    const fap_err err = fap_fba_body_skip(&d->body, &d->bits, intra, &d->pool);
 
     if (err == FAP_E_UNSUPPORTED)
         return fail(d, err, d->bits.at, "body data", "DCT segments are not supported");
@@ -203,9 +200,9 @@ static void show_frame(fap_decoder *d, const plane_header *h)
 {
     hold_all(&d->frame);
     if (h->has_face)
-        fba_face_show(&d->face, &d->frame);
+        fap_fba_face_show(&d->face, &d->frame);
     d->frame.number = d->time.number;
-    d->frame.pts_us = fba_time_us(&d->time);
+    d->frame.pts_us = fap_fba_time_us(&d->time);
 }
 
 static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
@@ -223,7 +220,7 @@ static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
     memcpy(i->mask_type, d->face.setup.mask_type, sizeof i->mask_type);
     i->skipped = h->time.skipped;
     memcpy(i->fap_bits, d->face.fap_bits, sizeof i->fap_bits);
-    i->rate_hz = fba_rate_hz(d->time.rate_16, d->time.offset);
+    i->rate_hz = fap_fba_rate_hz(d->time.rate_16, d->time.offset);
     for (int fap = 3; fap <= FAP_COUNT; fap++) {
         i->i_min[fap] = d->face.setup.range[FBA_I][fap].min;
         i->i_max[fap] = d->face.setup.range[FBA_I][fap].max;
@@ -235,7 +232,7 @@ static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
 /* Done as soon as the header is known: planes that cannot be decoded take their time all the same. */
 static fap_err advance(fap_decoder *d, const plane_header *h)
 {
-    const unsigned ignored = fba_time_advance(&d->time, &h->time, d->segments ? DCT_FRAMES : 1);
+    const unsigned ignored = fap_fba_time_advance(&d->time, &h->time, d->segments ? DCT_FRAMES : 1);
     fap_err err = FAP_OK;
 
     if (ignored & FBA_TIME_RATE_0)
@@ -305,15 +302,13 @@ static fap_err read_plane(fap_decoder *d, uint64_t start)
     return FAP_OK;
 }
 
-/* --- start codes
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- start codes ------------------------------------------------------------------------------ */
 
 static void begin_object(fap_decoder *d)
 {
     d->face_ready = d->body_ready = d->lost = d->segments = 0;
     d->face.has_ranges = 0;
-    fba_body_init(&d->body);
+    fap_fba_body_init(&d->body);
 }
 
 static fap_err end_unit(fap_decoder *d, fap_err err)
@@ -328,7 +323,7 @@ static void reset_stream(fap_decoder *d)
 {
     begin_object(d);
     d->started = 0;
-    fba_time_init(&d->time);
+    fap_fba_time_init(&d->time);
     d->frame = (fap_frame){ 0 };
 }
 
@@ -358,7 +353,8 @@ static fap_err take_code(fap_decoder *d, int code)
         d->lost = 0;
         err = FAP_OK;
     } else {
-        fba_seek_code(&d->bits); /* sequence and object headers, user data: nothing in them concerns a face */
+        fap_fba_seek_code(
+            &d->bits); /* sequence and object headers, user data: nothing in them concerns a face */
     }
     return err;
 }
@@ -374,18 +370,18 @@ static fap_err find_plane(fap_decoder *d, uint64_t *start)
     d->plane_code = 0;
     for (;;) {
         if (d->lost)
-            fba_seek_code(b);
+            fap_fba_seek_code(b);
         *start = b->at;
-        if (fba_is_used_up(b))
+        if (fap_fba_is_used_up(b))
             return end_unit(d, FAP_E_AGAIN);
-        const int code = fba_code_at(b, &b->at);
+        const int code = fap_fba_code_at(b, &b->at);
         if (code < 0)
             break;
         const fap_err err = take_code(d, code);
         if (err != FAP_E_AGAIN || !b->data)
             return err;
     }
-    if (fba_is_padding(b)) {
+    if (fap_fba_is_padding(b)) {
         const fap_err err = note(d, DEV_PADDING);
         return end_unit(d, err == FAP_OK ? FAP_E_AGAIN : err);
     }
@@ -414,9 +410,7 @@ fap_err fap_decoder_receive(fap_decoder *d, fap_frame *out)
     return err;
 }
 
-/* --- life
- * -------------------------------------------------------------------------------------------------------------
- */
+/* --- life ------------------------------------------------------------------------------------- */
 
 void fap_decoder_config_init(fap_decoder_config *cfg)
 {
@@ -454,7 +448,7 @@ fap_err fap_decoder_open(fap_decoder **decoder, const fap_decoder_config *cfg)
         return FAP_E_NOMEM;
     d->alloc = alloc;
     d->cfg = config;
-    model_pool_init(&d->pool, d->node, (uint16_t)(nodes - 1));
+    fap_model_pool_init(&d->pool, d->node, (uint16_t)(nodes - 1));
     reset_stream(d);
     *decoder = d;
     return FAP_OK;

@@ -51,15 +51,14 @@ struct fap_encoder {
     fap_encoder_stats stats;
 };
 
-/* --- frames in
- * ------------------------------------------------------------------------------------------------------ */
+/* --- frames in -------------------------------------------------------------------------------- */
 
 /* The frame number nearest to the frame's time, always above the one before. */
 static int64_t place(const fap_encoder *e, const fap_frame *f)
 {
     if (!e->sent)
         return 0;
-    const double rate = fba_rate_hz(e->rate_16, e->offset);
+    const double rate = fap_fba_rate_hz(e->rate_16, e->offset);
     const double at = ((double)f->pts_us - (double)e->first_pts_us) * 1e-6 * rate + 0.5;
     return at >= (double)(e->number + 1) && at < 1e15 ? (int64_t)at : e->number + 1;
 }
@@ -96,8 +95,7 @@ void fap_encoder_flush(fap_encoder *e)
     e->flushed = e->ready = 1;
 }
 
-/* --- quantising
- * ------------------------------------------------------------------------------------------------------- */
+/* --- quantising ------------------------------------------------------------------------------- */
 
 static int32_t wanted(const fap_frame *f, int param)
 {
@@ -109,7 +107,7 @@ static int32_t wanted(const fap_frame *f, int param)
     case FBA_EXPRESSION_INTENSITY1: return f->expression.intensity1;
     case FBA_EXPRESSION_SELECT2: return f->expression.select2;
     case FBA_EXPRESSION_INTENSITY2: return f->expression.intensity2;
-    default: return f->value[fba_fap(param)];
+    default: return f->value[fap_fba_fap(param)];
     }
 }
 
@@ -117,8 +115,8 @@ static int32_t wanted(const fap_frame *f, int param)
 static fba_range widest(const fba_setup *s, int param, int intra)
 {
     if (param < FBA_FIRST_FAP)
-        return fba_param_range(s, param, intra);
-    const int16_t bound = (int16_t)fba_bound(FBA_BOUND_MAX, s->quant);
+        return fap_fba_param_range(s, param, intra);
+    const int16_t bound = (int16_t)fap_fba_bound(FBA_BOUND_MAX, s->quant);
     return (fba_range){ (int16_t)-bound, bound };
 }
 
@@ -131,7 +129,7 @@ static int64_t nearest(int64_t difference, int32_t step)
 
 static int16_t quantise(fap_encoder *e, const fap_frame *f, int param, int intra)
 {
-    const int32_t step = fba_step(param, e->setup.quant), from = intra ? 0 : e->value[param];
+    const int32_t step = fap_fba_step(param, e->setup.quant), from = intra ? 0 : e->value[param];
     const fba_range range = widest(&e->setup, param, intra);
     int64_t level = nearest((int64_t)wanted(f, param) - from, step);
 
@@ -166,9 +164,9 @@ static void quantise_group(fap_encoder *e)
     for (int i = 0; i < e->count; i++) {
         e->shown[i] = e->queue[i].frame;
         e->shown[i].number = e->queue[i].number;
-        e->shown[i].pts_us = fba_frames_us(e->rate_16, e->offset, e->queue[i].number);
+        e->shown[i].pts_us = fap_fba_frames_us(e->rate_16, e->offset, e->queue[i].number);
         for (int param = 0; param < FBA_PARAMS; param++)
-            if (e->setup.coded[fba_fap(param)])
+            if (e->setup.coded[fap_fba_fap(param)])
                 e->level[i][param] = quantise(e, &e->queue[i].frame, param, i == 0);
         show(e, &e->shown[i]);
     }
@@ -186,7 +184,7 @@ static void widen(fba_range *r, int level)
 static int bound_for(int level, int quant)
 {
     int n = 0;
-    while (fba_bound(n, quant) < level)
+    while (fap_fba_bound(n, quant) < level)
         n++;
     return n;
 }
@@ -194,14 +192,14 @@ static int bound_for(int level, int quant)
 static void fit_ranges(fap_encoder *e)
 {
     for (int param = FBA_FIRST_FAP; param < FBA_PARAMS; param++) {
-        const int fap = fba_fap(param), quant = e->setup.quant;
+        const int fap = fap_fba_fap(param), quant = e->setup.quant;
         fba_range r[2] = { { 0, 0 }, { 0, 0 } };
         for (int i = 0; e->setup.coded[fap] && i < e->count; i++)
             widen(&r[i == 0 ? FBA_I : FBA_P], e->level[i][param]);
         for (int kind = 0; kind < 2; kind++)
             e->setup.range[kind][fap] =
-                (fba_range){ (int16_t)-fba_bound(bound_for(-r[kind].min, quant), quant),
-                             (int16_t)fba_bound(bound_for(r[kind].max, quant), quant) };
+                (fba_range){ (int16_t)-fap_fba_bound(bound_for(-r[kind].min, quant), quant),
+                             (int16_t)fap_fba_bound(bound_for(r[kind].max, quant), quant) };
     }
 }
 
@@ -216,9 +214,7 @@ static void choose_masks(fap_encoder *e)
     }
 }
 
-/* --- writing
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- writing ---------------------------------------------------------------------------------- */
 
 static void put_code(fap_bit_writer *w, int code)
 {
@@ -290,17 +286,17 @@ static int put_run(fap_encoder *e, fap_bit_writer *w, int i, int first, int end)
     static const model flat;
     arith_encoder a;
 
-    arith_encoder_begin(&a, w);
+    fap_arith_encoder_begin(&a, w);
     for (int param = first; param < end; param++) {
-        if (!e->setup.coded[fba_fap(param)])
+        if (!e->setup.coded[fap_fba_fap(param)])
             continue;
-        const fba_range range = fba_param_range(&e->setup, param, i == 0);
+        const fba_range range = fap_fba_param_range(&e->setup, param, i == 0);
         const int size = fba_range_size(range), symbol = e->level[i][param] - range.min;
-        arith_encoder_put(&a, model_interval(&e->pool, i ? &e->model[param] : &flat, size, symbol));
-        if (i && !model_count(&e->pool, &e->model[param], size, symbol))
+        fap_arith_encoder_put(&a, fap_model_interval(&e->pool, i ? &e->model[param] : &flat, size, symbol));
+        if (i && !fap_model_count(&e->pool, &e->model[param], size, symbol))
             return 0;
     }
-    arith_encoder_end(&a);
+    fap_arith_encoder_end(&a);
     return 1;
 }
 
@@ -338,7 +334,7 @@ static int put_plane(fap_encoder *e, fap_bit_writer *w, int i)
 static void clear_models(fap_encoder *e)
 {
     for (int param = 0; param < FBA_PARAMS; param++)
-        model_clear(&e->pool, &e->model[param]);
+        fap_model_clear(&e->pool, &e->model[param]);
 }
 
 /* How many frames were written: all, or those before the one that no decoder need have memory for. */
@@ -421,9 +417,7 @@ size_t fap_encoder_bound(const fap_encoder *e)
     return GROUP_BYTES + (size_t)e->cfg.intra * PLANE_BYTES;
 }
 
-/* --- life
- * -------------------------------------------------------------------------------------------------------------
- */
+/* --- life ------------------------------------------------------------------------------------- */
 
 void fap_encoder_config_init(fap_encoder_config *cfg)
 {
@@ -460,7 +454,7 @@ static void choose_rate(fap_encoder *e)
     const double rate = e->cfg.rate_hz;
     const uint32_t plain = sixteenths(rate), slowed = sixteenths(rate * 1001 / 1000);
 
-    e->offset = away(fba_rate_hz(slowed, 1), rate) < away(fba_rate_hz(plain, 0), rate) - 1e-6;
+    e->offset = away(fap_fba_rate_hz(slowed, 1), rate) < away(fap_fba_rate_hz(plain, 0), rate) - 1e-6;
     e->rate_16 = e->offset ? slowed : plain;
 }
 
@@ -489,7 +483,7 @@ fap_err fap_encoder_open(fap_encoder **encoder, const fap_encoder_config *cfg)
         fap_encoder_close(&e);
         return FAP_E_NOMEM;
     }
-    model_pool_init(&e->pool, e->node, MODEL_NODES);
+    fap_model_pool_init(&e->pool, e->node, MODEL_NODES);
     e->setup.quant = (uint8_t)config.quant;
     e->setup.gender = config.gender != 0;
     choose_rate(e);

@@ -28,8 +28,7 @@ static fap_err check_bits(fba_face_reader *r, const char *what)
     return fail(r, FAP_E_BITSTREAM, r->bits->bad_at, what, fap_bits_why(r->bits));
 }
 
-/* --- masks and ranges
- * ---------------------------------------------------------------------------------------------- */
+/* --- masks and ranges ------------------------------------------------------------------------- */
 
 static void read_group_mask(fap_bits *b, int group, fba_setup *s)
 {
@@ -48,7 +47,7 @@ static void read_group_mask(fap_bits *b, int group, fba_setup *s)
 
 static void read_bound(fap_bits *b, fba_setup *s, int fap, int table)
 {
-    const int bound = fba_bound((int)fap_bits_get(b, 5), s->quant);
+    const int bound = fap_fba_bound((int)fap_bits_get(b, 5), s->quant);
     fba_range *r = &s->range[table < 2 ? FBA_I : FBA_P][fap];
 
     if (table % 2 == 0)
@@ -76,7 +75,7 @@ static void install_default_ranges(fba_face_reader *r, fba_face *p)
 {
     if (p->has_ranges)
         return;
-    fba_default_ranges(&p->setup, r->default_bound);
+    fap_fba_default_ranges(&p->setup, r->default_bound);
     p->has_ranges = 1;
 }
 
@@ -103,13 +102,11 @@ static fap_err read_setup(fba_face_reader *r, fba_face *p)
     return check_bits(r, "symbol ranges");
 }
 
-/* --- values
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- values ----------------------------------------------------------------------------------- */
 
 static void add_value(fba_face *p, int param, int32_t level, int intra)
 {
-    const int64_t v = (int64_t)level * fba_step(param, p->setup.quant) + (intra ? 0 : p->value[param]);
+    const int64_t v = (int64_t)level * fap_fba_step(param, p->setup.quant) + (intra ? 0 : p->value[param]);
 
     p->value[param] = (int32_t)(v > value_limit ? value_limit : v < -value_limit ? -value_limit : v);
 }
@@ -120,16 +117,17 @@ static int read_symbol(fba_face_reader *r, arith_decoder *a, fba_face *p, int pa
     static const model flat; /* I symbols are coded with counts of 1 */
     model *const adaptive = &r->model[param];
     const model *const m = intra ? &flat : adaptive;
-    const fba_range range = fba_param_range(&p->setup, param, intra);
+    const fba_range range = fap_fba_param_range(&p->setup, param, intra);
     const int size = fba_range_size(range);
     const uint64_t before = a->shifts;
     arith_interval where;
 
-    const int symbol = model_find(r->pool, m, size, arith_target(a, model_total(m, size)), &where);
-    arith_take(a, where);
-    p->fap_bits[fba_fap(param)] = (uint16_t)(p->fap_bits[fba_fap(param)] + (a->shifts - before));
+    const int symbol =
+        fap_model_find(r->pool, m, size, fap_arith_target(a, fap_model_total(m, size)), &where);
+    fap_arith_take(a, where);
+    p->fap_bits[fap_fba_fap(param)] = (uint16_t)(p->fap_bits[fap_fba_fap(param)] + (a->shifts - before));
     add_value(p, param, symbol + range.min, intra);
-    return intra || model_count(r->pool, adaptive, size, symbol);
+    return intra || fap_model_count(r->pool, adaptive, size, symbol);
 }
 
 /* One arithmetic run: the coded ones of params [first, end). */
@@ -137,12 +135,12 @@ static fap_err read_run(fba_face_reader *r, fba_face *p, int first, int end, int
 {
     arith_decoder a;
 
-    arith_begin(&a, r->bits);
+    fap_arith_begin(&a, r->bits);
     for (int param = first; param < end; param++)
-        if (p->setup.coded[fba_fap(param)] && !read_symbol(r, &a, p, param, intra))
+        if (p->setup.coded[fap_fba_fap(param)] && !read_symbol(r, &a, p, param, intra))
             return fail(r, FAP_E_LIMIT, r->bits->at, "P plane",
                         "more different symbols than symbol_memory holds");
-    arith_end(&a);
+    fap_arith_end(&a);
     return check_bits(r, "arithmetic code");
 }
 
@@ -189,12 +187,12 @@ static fap_err read_params(fba_face_reader *r, fba_face *p, int intra)
     return err;
 }
 
-fap_err fba_face_read(fba_face_reader *r, fba_face *face, int intra)
+fap_err fap_fba_face_read(fba_face_reader *r, fba_face *face, int intra)
 {
     memset(face->fap_bits, 0, sizeof face->fap_bits);
     if (intra) {
         for (int param = 0; param < FBA_PARAMS; param++)
-            model_clear(r->pool, &r->model[param]);
+            fap_model_clear(r->pool, &r->model[param]);
         const fap_err err = read_setup(r, face);
         if (err != FAP_OK)
             return err;
@@ -202,8 +200,7 @@ fap_err fba_face_read(fba_face_reader *r, fba_face *face, int intra)
     return read_params(r, face, intra);
 }
 
-/* --- frames
- * -------------------------------------------------------------------------------------------------------- */
+/* --- frames ----------------------------------------------------------------------------------- */
 
 static uint8_t clamp_strength(int32_t v)
 {
@@ -246,6 +243,14 @@ static int is_left_to_us(const fba_face *face, int fap)
     return !face->setup.coded[fap] && face->setup.mask_type[fap_info_get(fap)->group] == FBA_MASK_INTERPOLATE;
 }
 
+static int leaves_any_to_us(const fba_face *face)
+{
+    for (int group = 2; group <= FAP_GROUPS; group++)
+        if (face->setup.mask_type[group] == FBA_MASK_INTERPOLATE)
+            return 1;
+    return 0;
+}
+
 /* Mask type 2: the decoder finds the values. Those it cannot find stay held. */
 static void show_interpolated(const fba_face *face, fap_frame *f)
 {
@@ -262,8 +267,9 @@ static void show_interpolated(const fba_face *face, fap_frame *f)
         }
 }
 
-void fba_face_show(const fba_face *face, fap_frame *frame)
+void fap_fba_face_show(const fba_face *face, fap_frame *frame)
 {
     show_coded(face, frame);
-    show_interpolated(face, frame);
+    if (leaves_any_to_us(face)) /* rare, and most of the time of a plane when done for nothing */
+        show_interpolated(face, frame);
 }

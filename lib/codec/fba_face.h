@@ -30,9 +30,9 @@ typedef struct fba_face_reader {
 } fba_face_reader;
 
 /* FAP_OK; FAP_E_BITSTREAM, FAP_E_UNSUPPORTED or FAP_E_LIMIT, and the reader says why. */
-fap_err fba_face_read(fba_face_reader *r, fba_face *face, int intra);
+fap_err fap_fba_face_read(fba_face_reader *r, fba_face *face, int intra);
 /* The face in a frame: coded FAPs, and those that the stream leaves to the decoder. Others stay as they are.
  */
-void fba_face_show(const fba_face *face, fap_frame *frame);
+void fap_fba_face_show(const fba_face *face, fap_frame *frame);
 
 #endif

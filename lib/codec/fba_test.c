@@ -13,8 +13,7 @@
 #include "codec/fba.h"
 #include "codec/models.h"
 
-/* --- writing streams
- * -------------------------------------------------------------------------------------------------- */
+/* --- writing streams -------------------------------------------------------------------------- */
 
 typedef struct stream {
     uint8_t data[4096];
@@ -85,12 +84,12 @@ static void flat_run(stream *s, const int (*symbol_size)[2], int count)
 {
     arith_encoder a;
 
-    arith_encoder_begin(&a, &s->w);
+    fap_arith_encoder_begin(&a, &s->w);
     for (int i = 0; i < count; i++) {
         const uint32_t low = (uint32_t)(symbol_size[i][1] - 1 - symbol_size[i][0]);
-        arith_encoder_put(&a, (arith_interval){ low, low + 1, (uint32_t)symbol_size[i][1] });
+        fap_arith_encoder_put(&a, (arith_interval){ low, low + 1, (uint32_t)symbol_size[i][1] });
     }
-    arith_encoder_end(&a);
+    fap_arith_encoder_end(&a);
 }
 
 /* Head pitch: default range -1860..1860, and -600..600 in P planes; step 170. */
@@ -108,9 +107,7 @@ static void predicted_pitch(stream *s, int difference)
     flat_run(s, (const int[][2]){ { difference + 600, 1201 } }, 1);
 }
 
-/* --- reading
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 static void count_notice(void *user, int64_t bit, const char *text)
 {
@@ -391,8 +388,7 @@ TEST(fba, another_default_range_can_be_asked_for)
     ends(d);
 }
 
-/* --- what is passed over
- * ---------------------------------------------------------------------------------------------- */
+/* --- what is passed over ---------------------------------------------------------------------- */
 
 static void segment_plane(stream *s)
 {
@@ -499,8 +495,7 @@ TEST(fba, headers_of_a_visual_sequence_are_passed_over)
     ends(d);
 }
 
-/* --- units, damage, resources
- * ------------------------------------------------------------------------------------------ */
+/* --- units, damage, resources ----------------------------------------------------------------- */
 
 TEST(fba, units_are_taken_one_at_a_time)
 {
@@ -637,9 +632,9 @@ TEST(fba, symbols_beyond_the_memory_are_an_error_not_a_guess)
     predicted_pitch(&s, 1);
     arith_encoder a;
     predicted_header(&s);
-    arith_encoder_begin(&a, &s.w);
-    arith_encoder_put(&a, (arith_interval){ 0, 1, 1202 });
-    arith_encoder_end(&a);
+    fap_arith_encoder_begin(&a, &s.w);
+    fap_arith_encoder_put(&a, (arith_interval){ 0, 1, 1202 });
+    fap_arith_encoder_end(&a);
     end(&s);
     assert_int_equal(fap_decoder_open(&d, &cfg), FAP_OK);
     assert_int_equal(fap_decoder_send(d, s.data, (size_t)s.w.at / 8), FAP_OK);
@@ -649,8 +644,7 @@ TEST(fba, symbols_beyond_the_memory_are_an_error_not_a_guess)
     ends(d);
 }
 
-/* --- encoder and decoder
- * ------------------------------------------------------------------------------------------------ */
+/* --- encoder and decoder ---------------------------------------------------------------------- */
 
 static uint32_t draw(uint32_t *state)
 {
@@ -867,9 +861,7 @@ TEST(fba, no_damage_does_harm)
     }
 }
 
-/* --- real files
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- real files ------------------------------------------------------------------------------- */
 
 static size_t stdio_read(void *user, void *buf, size_t size)
 {
@@ -925,7 +917,8 @@ TEST(fba, real_files_decode_to_the_encoders_reconstruction)
             real_round_trip(names[i], quant);
 }
 
-/* 48 s of talking head: 9,977 bytes; with ranges by the table it took 16,336. Literature gives 0.3 to 3 kbit/s. */
+/* 48 s of talking head: 9,977 bytes; with ranges by the table it took 16,336. Literature gives 0.3 to 3
+ * kbit/s. */
 TEST(fba, a_talking_head_takes_a_few_kilobits_a_second)
 {
     assert_in_range(real_round_trip("metaface_th-example-plain.fap", 1), 1000, 10500);

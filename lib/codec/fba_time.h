@@ -26,15 +26,15 @@ typedef struct fba_time {
     int has_epoch;
 } fba_time;
 
-/* What fba_time_advance() could not believe. */
+/* What fap_fba_time_advance() could not believe. */
 enum { FBA_TIME_RATE_0 = 1, FBA_TIME_BACK = 2 };
 
-void fba_time_init(fba_time *t);
+void fap_fba_time_init(fba_time *t);
 /* To the frame of the next plane; @p frames: how many the plane before it held. Returns FBA_TIME_ flags. */
-unsigned fba_time_advance(fba_time *t, const fba_time_fields *f, int frames);
-int64_t fba_time_us(const fba_time *t);
-double fba_rate_hz(uint32_t rate_16, int offset);
+unsigned fap_fba_time_advance(fba_time *t, const fba_time_fields *f, int frames);
+int64_t fap_fba_time_us(const fba_time *t);
+double fap_fba_rate_hz(uint32_t rate_16, int offset);
 /* How long @p frames last. */
-int64_t fba_frames_us(uint32_t rate_16, int offset, int64_t frames);
+int64_t fap_fba_frames_us(uint32_t rate_16, int offset, int64_t frames);
 
 #endif

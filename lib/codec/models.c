@@ -5,7 +5,7 @@
 
 enum { TOTAL_MAX = 16383 };
 
-void model_pool_init(model_pool *pool, model_node *node, uint16_t count)
+void fap_model_pool_init(model_pool *pool, model_node *node, uint16_t count)
 {
     *pool = (model_pool){ .node = node, .count = count };
 }
@@ -27,7 +27,7 @@ static uint16_t new_node(model_pool *pool)
     return pool->used < pool->count ? ++pool->used : 0;
 }
 
-void model_clear(model_pool *pool, model *m)
+void fap_model_clear(model_pool *pool, model *m)
 {
     for (uint16_t i = m->first, next; i; i = next) {
         next = pool->node[i].next;
@@ -36,12 +36,12 @@ void model_clear(model_pool *pool, model *m)
     *m = (model){ 0 };
 }
 
-uint32_t model_total(const model *m, int size)
+uint32_t fap_model_total(const model *m, int size)
 {
     return (uint32_t)size + m->extra;
 }
 
-int model_find(const model_pool *pool, const model *m, int size, uint32_t target, arith_interval *out)
+int fap_model_find(const model_pool *pool, const model *m, int size, uint32_t target, arith_interval *out)
 {
     uint32_t cum = 0; /* counts of the symbols from upper on */
     int upper = size;
@@ -52,17 +52,17 @@ int model_find(const model_pool *pool, const model *m, int size, uint32_t target
         if (target < above)
             break;
         if (target <= above + n->extra) {
-            *out = (arith_interval){ above, above + 1 + n->extra, model_total(m, size) };
+            *out = (arith_interval){ above, above + 1 + n->extra, fap_model_total(m, size) };
             return n->symbol;
         }
         cum = above + 1 + n->extra;
         upper = n->symbol;
     }
-    *out = (arith_interval){ target, target + 1, model_total(m, size) };
+    *out = (arith_interval){ target, target + 1, fap_model_total(m, size) };
     return upper - 1 - (int)(target - cum);
 }
 
-arith_interval model_interval(const model_pool *pool, const model *m, int size, int symbol)
+arith_interval fap_model_interval(const model_pool *pool, const model *m, int size, int symbol)
 {
     uint32_t low = (uint32_t)(size - 1 - symbol), count = 1;
     uint16_t i = m->first;
@@ -71,7 +71,7 @@ arith_interval model_interval(const model_pool *pool, const model *m, int size, 
         low += pool->node[i].extra;
     if (i && pool->node[i].symbol == symbol)
         count += pool->node[i].extra;
-    return (arith_interval){ low, low + count, model_total(m, size) };
+    return (arith_interval){ low, low + count, fap_model_total(m, size) };
 }
 
 /* Every count becomes half of it, rounded up: what was added, 1 less than the count, half of it rounded down.
@@ -95,9 +95,9 @@ static void halve(model_pool *pool, model *m)
     }
 }
 
-int model_count(model_pool *pool, model *m, int size, int symbol)
+int fap_model_count(model_pool *pool, model *m, int size, int symbol)
 {
-    if (model_total(m, size) == TOTAL_MAX)
+    if (fap_model_total(m, size) == TOTAL_MAX)
         halve(pool, m);
 
     uint16_t *link = &m->first;

@@ -30,16 +30,16 @@ typedef struct model_pool {
  */
 enum { MODEL_NODES = 9000, MODEL_POOL_MAX = 65534 };
 
-void model_pool_init(model_pool *pool, model_node *node, uint16_t count);
+void fap_model_pool_init(model_pool *pool, model_node *node, uint16_t count);
 /* All symbols count 1 again. */
-void model_clear(model_pool *pool, model *m);
+void fap_model_clear(model_pool *pool, model *m);
 
 /* The symbol of @p size that holds @p target, and its interval. */
-int model_find(const model_pool *pool, const model *m, int size, uint32_t target, arith_interval *out);
+int fap_model_find(const model_pool *pool, const model *m, int size, uint32_t target, arith_interval *out);
 /* The interval of @p symbol. */
-arith_interval model_interval(const model_pool *pool, const model *m, int size, int symbol);
-uint32_t model_total(const model *m, int size);
+arith_interval fap_model_interval(const model_pool *pool, const model *m, int size, int symbol);
+uint32_t fap_model_total(const model *m, int size);
 /* Counts @p symbol once more; 0: the pool is used up. */
-int model_count(model_pool *pool, model *m, int size, int symbol);
+int fap_model_count(model_pool *pool, model *m, int size, int symbol);
 
 #endif
