@@ -57,6 +57,7 @@ static void find_known_keys(fap_face *face)
 
     k->jaw_open = unit(face, "jawOpen");
     k->mouth_close = unit(face, "mouthClose");
+    k->cheek_puff = unit(face, "cheekPuff");
     k->blink_both = fap_bank_key_find(face->bank, FAP_KEY_EXTRA, "blink");
     for (int right = 0; right < 2; right++) {
         k->blink[right] = unit(face, names[right][0]);
@@ -147,10 +148,10 @@ static fap_err open_keys(fap_face *face)
     face->fixed = fap_mem_calloc(&face->alloc, n, sizeof *face->fixed);
     face->weight = fap_mem_calloc(&face->alloc, n, sizeof *face->weight);
     face->variable = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->variable);
-    face->price = fap_mem_calloc(&face->alloc, 2 * n, sizeof *face->price);
+    face->beside = fap_mem_calloc(&face->alloc, 2 * n, sizeof *face->beside);
     face->mover = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->mover);
     face->reach = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->reach);
-    if (!face->key || !face->motion || !face->basis || !face->free_key || !face->price || !face->mover ||
+    if (!face->key || !face->motion || !face->basis || !face->free_key || !face->beside || !face->mover ||
         !face->reach || !face->population || !face->fixed || !face->weight || !face->variable)
         return FAP_E_NOMEM;
     read_keys(face);
@@ -226,7 +227,7 @@ void fap_face_close(fap_face **face)
     fap_qp_close(&f->qp, &alloc);
     fap_ga_close(&f->ga, &alloc);
     void *const blocks[] = { f->key,    f->motion, f->basis, f->free_key, f->population, f->fixed,
-                             f->weight, f->price,  f->mover, f->reach,    f->variable,   f };
+                             f->weight, f->beside, f->mover, f->reach,    f->variable,   f };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         fap_mem_free(&alloc, blocks[i]);
     *face = NULL;

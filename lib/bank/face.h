@@ -19,7 +19,7 @@ enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_SLITS = 5, FAP_RIVA
 
 /* Keys with a part of their own, by bank index; -1 where the bank has none. */
 typedef struct fap_face_keys {
-    int jaw_open, mouth_close;
+    int jaw_open, mouth_close, cheek_puff;
     int blink[2], blink_both; /* left, right; the extra key of both */
     int look_up[2], look_down[2], look_in[2], look_out[2];
 } fap_face_keys;
@@ -83,7 +83,7 @@ struct fap_face {
     float *fixed;                    /* [key_count]: gaze and blink: do not yield */
     float fixed_motion[FAP_ROWS];
     float *weight; /* [key_count]: the answer */
-    float *price;  /* [2 * key_count]: ridge of each key */
+    float *beside; /* [2 * key_count]: see face_solve.c */
     int *mover;    /* [key_count + 1]: work of one row, with reach */
     double *reach;
     int *variable;                   /* [key_count + 1]: column of each variable */

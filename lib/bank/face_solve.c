@@ -9,14 +9,18 @@
 
 #include "bank/face.h"
 
-static const float weight_max = 1.25f; /* units may go a little beyond what was modelled */
-static const float most_of_a_key = 4;  /* the thesis sets no bound; absurd targets need one */
-static const float ridge_mm2 = 0.1f;   /* decides between equal answers: the smaller weights */
-static const float most_unasked = 200;
-static const float close_price_mm2 = 20;
-static const double base_hold_mm2 = 1.0; /* how dearly a viseme or expression yields to low-level FAPs */
+/* Lengths in millimetres, prices in square millimetres: what a weight of one costs against a squared error.
+ */
+static const float weight_max = 1.25f;   /* units may go a little beyond what was modelled */
+static const float most_of_a_key = 2;    /* the thesis sets no bound; absurd targets need one */
 static const float farthest_mm = 150;    /* beyond it a target is noise; keeps sums of squares finite */
-static const float beside_weight = 1;
+static const float ridge_mm2 = 0.1f;     /* decides between equal answers: the smaller weights */
+static const float shut_jaw_factor = 20; /* see price_of() */
+static const double base_hold_mm2 = 1;   /* how dearly a viseme or expression yields to low-level FAPs */
+static const float most_beside = 300;    /* caps of "how much beside the point" a key is ... */
+static const float left_out_beside =
+    10;                               /* ... and from where, above the best, the thesis's way leaves it out */
+static const float beside_weight = 1; /* the GA: a millimetre at a point nobody speaks of */
 static const float worth_it_mm = 0.1f;       /* RMS the GA must gain before it is believed ... */
 static const float fully_worth_it_mm = 0.5f; /* ... and before it is believed fully */
 
@@ -100,21 +104,44 @@ static double base_jaw(const fap_face *face)
  * is s >= 0, a plain bound, and mouthClose's column becomes "jaw opens behind closed lips". Over the jaw of a
  * viseme lips close by a variable of its own, mouthClose as it is: the extra column at the end.
  */
-void fap_face_make_basis(fap_face *face)
+static void close_over_jaw(const fap_face *face, float *basis)
 {
     const fap_face_keys *k = &face->known;
+
+    if (k->mouth_close < 0)
+        return;
+    basis[face->key_count] = basis[k->mouth_close];
+    if (k->jaw_open >= 0)
+        basis[k->mouth_close] += basis[k->jaw_open];
+}
+
+/*
+ * FAPs 39 and 40 state a puffed cheek by its sideways way alone, yet cheeks puff forward: the whole way
+ * counts, and the residual adds what is missing sideways. Without this a wide mouth was found to explain them
+ * better.
+ */
+static void puff_outward(fap_face *face)
+{
+    static const char *const cheeks[2] = { "5.1", "5.2" };
+    const int key = face->known.cheek_puff;
+
+    for (int right = 0; right < 2 && key >= 0; right++) {
+        const int point = fap_point_by_name(cheeks[right]);
+        const float *m = face->key[key]->point_mm[point];
+        const float way = sqrtf(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+        face->basis[3 * (size_t)point * ((size_t)face->key_count + 1) + (size_t)key] = right ? -way : way;
+    }
+}
+
+void fap_face_make_basis(fap_face *face)
+{
     const size_t n = (size_t)face->key_count;
 
     for (size_t row = 0; row < FAP_ROWS; row++) {
-        const float *motion = face->motion + row * n;
-        float *basis = face->basis + row * (n + 1);
-        memcpy(basis, motion, n * sizeof *basis);
-        if (k->mouth_close < 0)
-            continue;
-        basis[n] = motion[k->mouth_close];
-        if (k->jaw_open >= 0)
-            basis[k->mouth_close] += motion[k->jaw_open];
+        memcpy(face->basis + row * (n + 1), face->motion + row * n, n * sizeof *face->basis);
+        close_over_jaw(face, face->basis + row * (n + 1));
     }
+    puff_outward(face);
 }
 
 static const float *basis_row(const fap_face *face, int row)
@@ -136,15 +163,15 @@ static int drives_lips(const fap_face *face)
 }
 
 /*
- * Costs of keys: what a key does to points nobody speaks of, against what it does to commanded ones. Brows
+ * For each key, how much it moves points nobody speaks of against how much it moves commanded ones. Brows
  * move the lids a little, too, but a command to the lids alone should close the eyes and leave the brows in
  * peace.
  */
-static void price_keys(fap_face *face)
+static void measure_beside(fap_face *face)
 {
-    float *beside = face->price, *asked = face->price + face->key_count;
+    float *beside = face->beside, *asked = face->beside + face->key_count;
 
-    memset(face->price, 0, 2 * sizeof *face->price * (size_t)face->key_count);
+    memset(face->beside, 0, 2 * sizeof *face->beside * (size_t)face->key_count);
     for (int row = 0; row < FAP_ROWS; row++) {
         const uint8_t *w = face->wanted[row / 3];
         if (w[row % 3])
@@ -153,11 +180,22 @@ static void price_keys(fap_face *face)
             add_squares(face, row, beside);
     }
     for (int k = 0; k < face->key_count; k++)
-        face->price[k] = ridge_mm2 * (1 + fminf(beside[k] / (asked[k] + 1e-3f), most_unasked));
-    /* Jaw down with lips shut is open_jaw to the letter; where lips have no say, an open mouth is expected.
-     */
-    if (face->known.mouth_close >= 0 && !drives_lips(face))
-        face->price[face->known.mouth_close] = fmaxf(face->price[face->known.mouth_close], close_price_mm2);
+        face->beside[k] = fminf(beside[k] / (asked[k] + 1e-3f), most_beside);
+}
+
+static float plain_price(const fap_face *face, int key)
+{
+    return ridge_mm2 * (1 + face->beside[key]);
+}
+
+/* Jaw down with lips shut is open_jaw to the letter; where lips have no say, an open mouth is expected. */
+static float price_of(const fap_face *face, int key)
+{
+    const fap_face_keys *k = &face->known;
+
+    if (key != k->mouth_close || k->jaw_open < 0 || drives_lips(face))
+        return plain_price(face, key);
+    return fmaxf(plain_price(face, key), shut_jaw_factor * plain_price(face, k->jaw_open));
 }
 
 static void add_variable(fap_face *face, int column, double hi, double ridge, double prior)
@@ -175,12 +213,12 @@ static void set_variables(fap_face *face)
 {
     const int close = face->known.mouth_close;
 
-    price_keys(face);
+    measure_beside(face);
     fap_qp_clear(&face->qp, face->qp.capacity);
     face->qp.n = 0;
     for (int k = 0; k < face->key_count; k++)
         if (face->free_key[k] && !has_base(face, k))
-            add_variable(face, k, k == close ? 1 : weight_max, face->price[k], 0);
+            add_variable(face, k, k == close ? 1 : weight_max, price_of(face, k), 0);
     for (int i = 0; i < face->base_count; i++)
         add_variable(face, face->base_key[i], face->base_weight[i], base_hold_mm2, face->base_weight[i]);
     if (close >= 0 && base_jaw(face) > 0)
@@ -312,12 +350,29 @@ static int drop_unmoved(const fap_face *face, int *point, float *vector, int n)
     return kept;
 }
 
+static float least_beside(const fap_face *face)
+{
+    float least = most_beside;
+
+    for (int k = 0; k < face->key_count; k++)
+        if (face->population[k])
+            least = fminf(least, face->beside[k]);
+    return least;
+}
+
+/*
+ * A key that hardly moves what is asked for (a blink, when only the mouth is commanded) would be scaled to a
+ * monster by the ratio of lengths; the thesis's keys all move most of the face. With every point commanded
+ * all keys take part.
+ */
 static void add_population(fap_face *face, const int *point, int n)
 {
     float *vector, *gene;
+    const float least = least_beside(face);
 
     for (int k = 0; k < face->key_count; k++) {
-        if (!face->population[k] || !fap_ga_add(&face->ga, &vector, &gene))
+        if (!face->population[k] || face->beside[k] > least + left_out_beside ||
+            !fap_ga_add(&face->ga, &vector, &gene))
             continue;
         gene[k] = 1;
         for (int i = 0; i < 3 * n; i++)
@@ -335,6 +390,7 @@ static void solve_zhu(fap_face *face)
     memset(face->weight, 0, sizeof *face->weight * (size_t)face->key_count);
     if (!n)
         return;
+    measure_beside(face);
     fap_ga_clear(&face->ga);
     add_population(face, point, n);
     const fap_ga_task task = { .target = vector,

@@ -27,7 +27,7 @@ static float group_radius(const fap_point_info *info)
     case 2: return info->index == 1 ? 34 : info->index == 10 ? 26 : 14; /* chin, chin boss, inner lips */
     case 3: return 13;
     case 4: return 32;
-    case 5: return 26;
+    case 5: return 40;
     case 6: return 25;
     case 8: return 20;
     case 9: return 18;
