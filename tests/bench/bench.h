@@ -27,4 +27,15 @@ double bench_render_overhead(void);
 /* Frames of 58 FAPs that the .fap reader takes in a second. */
 double bench_ascii_parse_fps(void);
 
+/* Microseconds a pose takes by each method, and what normals add. */
+double bench_face_ga_us(void);
+double bench_face_qp_us(void);
+double bench_face_zhu_us(void);
+double bench_face_normals_us(void);
+/* Mean cosine reached on 20 mixes of three keys; the thesis's way over 10 seeds (Zhu 2006, table 3.1). */
+double bench_zhu_fitness_midpoint(void);
+double bench_zhu_fitness_line(void);
+double bench_zhu_fitness_blx(void);
+double bench_ga_fitness(void);
+
 #endif
