@@ -92,7 +92,7 @@ static void say_fapu(const fap_capture_report *r)
 static void say_faps(const fap_capture_report *r)
 {
     line unseen = { "", 0 };
-    char number[8];
+    char number[16];
 
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
         const fap_capture_fap *f = &r->fap[fap];
