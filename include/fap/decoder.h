@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /** @file
- * The decoder of FBA elementary streams (.fba): predictive mode in full; body data is parsed past. A decoder takes its
- * memory in open, 64 KiB by default, and none afterwards; all its decisions are made in integers.
+ * The decoder of FBA elementary streams (.fba): predictive mode in full; body data is parsed past. A decoder
+ * takes its memory in open, 64 KiB by default, and none afterwards; all its decisions are made in integers.
  * Source: ISO/IEC 14496-2, face object and face object plane syntax, arithmetic decoding of FAPs.
  */
 #ifndef FAP_DECODER_H
@@ -17,7 +17,8 @@ extern "C" {
 
 typedef struct fap_decoder fap_decoder;
 
-/** A tolerated deviation: told once per kind. @p bit counts from the first bit ever sent. @p text is static. */
+/** A tolerated deviation: told once per kind. @p bit counts from the first bit ever sent. @p text is static.
+ */
 typedef void (*fap_decoder_notice)(void *user, int64_t bit, const char *text);
 
 /** Options; start from fap_decoder_config_init(). */
@@ -26,11 +27,11 @@ typedef struct fap_decoder_config {
     int strict;                /**< 0; 1: every deviation is an error */
     fap_decoder_notice notice; /**< NULL */
     void *notice_user;
-    /** 0: FAPs without a range in the stream have the standard's. 1..1860: this bound on both sides for all of them;
-     *  1020 reads what one old encoder wrote. */
+    /** 0: FAPs without a range in the stream have the standard's. 1..1860: this bound on both sides for all
+     * of them; 1020 reads what one old encoder wrote. */
     int default_bound;
-    /** 0: what fits into 64 KiB. Otherwise how many different symbols the P planes between two I planes may use, over
-     *  all FAPs, up to 65534; 6 bytes each. */
+    /** 0: what fits into 64 KiB. Otherwise how many different symbols the P planes between two I planes may
+     * use, over all FAPs, up to 65534; 6 bytes each. */
     int symbol_memory;
     fap_allocator alloc;
 } fap_decoder_config;
@@ -40,17 +41,17 @@ FAP_API void fap_decoder_config_init(fap_decoder_config *cfg);
 
 /** What the plane of the last frame was made of. */
 typedef struct fap_plane_info {
-    int64_t bit_position;              /**< of its first bit, start code included, since open */
+    int64_t bit_position; /**< of its first bit, start code included, since open */
     uint32_t bit_count;
-    uint8_t intra;                     /**< 1: I plane */
-    uint8_t start_code;                /**< 1: a plane start code stands in front */
+    uint8_t intra;      /**< 1: I plane */
+    uint8_t start_code; /**< 1: a plane start code stands in front */
     uint8_t has_face, has_body;
-    uint8_t quant;                     /**< fap_quant in force */
-    uint8_t gender;                    /**< fba_suggested_gender in force; 1: male */
-    uint8_t mask_type[FAP_GROUPS + 1]; /**< fap_mask_type of groups 1..10 in force */
-    uint32_t skipped;                  /**< frames between the one before and this one */
-    double rate_hz;                    /**< in force */
-    uint16_t fap_bits[FAP_COUNT + 1];  /**< bits that the FAP's symbols took, to the bit */
+    uint8_t quant;                                      /**< fap_quant in force */
+    uint8_t gender;                                     /**< fba_suggested_gender in force; 1: male */
+    uint8_t mask_type[FAP_GROUPS + 1];                  /**< fap_mask_type of groups 1..10 in force */
+    uint32_t skipped;                                   /**< frames between the one before and this one */
+    double rate_hz;                                     /**< in force */
+    uint16_t fap_bits[FAP_COUNT + 1];                   /**< bits that the FAP's symbols took, to the bit */
     int16_t i_min[FAP_COUNT + 1], i_max[FAP_COUNT + 1]; /**< symbol ranges in force, in levels; FAPs 3..68 */
     int16_t p_min[FAP_COUNT + 1], p_max[FAP_COUNT + 1];
 } fap_plane_info;
@@ -64,15 +65,17 @@ FAP_API FAP_NODISCARD fap_err fap_decoder_open(fap_decoder **decoder, const fap_
 /**
  * Hand over one unit: a whole stream, or any run of whole planes that ends on a byte boundary (a packet).
  *
- * @param data  not copied: keep it until fap_decoder_receive() has given FAP_E_AGAIN or FAP_E_END, flush or close
+ * @param data  not copied: keep it until fap_decoder_receive() has given FAP_E_AGAIN or FAP_E_END, flush or
+ * close
  * @param size  bytes, at least 1
  * @return FAP_OK taken; FAP_E_AGAIN not taken, frames of the unit before are waiting; FAP_E_ARG
  */
 FAP_API FAP_NODISCARD fap_err fap_decoder_send(fap_decoder *decoder, const uint8_t *data, size_t size);
 
 /**
- * The next frame. FAPs that the plane carries are FAP_CODED. Others are FAP_HELD with the last value decoded, FAP_ABSENT
- * when there is none; where the stream asks for it (fap_mask_type 2) they are FAP_DERIVED if another FAP gives them.
+ * The next frame. FAPs that the plane carries are FAP_CODED. Others are FAP_HELD with the last value decoded,
+ * FAP_ABSENT when there is none; where the stream asks for it (fap_mask_type 2) they are FAP_DERIVED if
+ * another FAP gives them.
  *
  * @return FAP_OK             one frame
  *         FAP_E_AGAIN        the unit is used up: send the next
@@ -80,8 +83,8 @@ FAP_API FAP_NODISCARD fap_err fap_decoder_send(fap_decoder *decoder, const uint8
  *         FAP_E_BITSTREAM    the plane breaks the standard
  *         FAP_E_UNSUPPORTED  the plane is coded in DCT segments
  *         FAP_E_LIMIT        the P planes since the last I plane used up symbol_memory
- * After an error @p out is untouched, and the next calls go on at the next I plane that can be found: behind a start code,
- * or at the start of the next unit. FAPs keep their values until then.
+ * After an error @p out is untouched, and the next calls go on at the next I plane that can be found: behind
+ * a start code, or at the start of the next unit. FAPs keep their values until then.
  */
 FAP_API FAP_NODISCARD fap_err fap_decoder_receive(fap_decoder *decoder, fap_frame *out);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /** @file
- * The encoder of FBA elementary streams (.fba), predictive mode, fixed quantiser. Frames are gathered into groups, an I
- * plane and the P planes behind it, so that the symbol ranges sent fit the data tightly; all four range tables are sent
- * in every I plane, which leaves no decoder a choice.
- * Source: ISO/IEC 14496-2, face object plane syntax, arithmetic coding of FAPs.
+ * The encoder of FBA elementary streams (.fba), predictive mode, fixed quantiser. Frames are gathered into
+ * groups, an I plane and the P planes behind it, so that the symbol ranges sent fit the data tightly; all
+ * four range tables are sent in every I plane, which leaves no decoder a choice. Source: ISO/IEC 14496-2,
+ * face object plane syntax, arithmetic coding of FAPs.
  */
 #ifndef FAP_ENCODER_H
 #define FAP_ENCODER_H
@@ -20,12 +20,12 @@ typedef struct fap_encoder fap_encoder;
 
 /** Options; start from fap_encoder_config_init(). */
 typedef struct fap_encoder_config {
-    size_t struct_size;  /**< sizeof of this struct, set by init */
-    double rate_hz;      /**< 25; sent as the nearest of n/16 and n/16 * 1000/1001, up to 255.9375 */
-    int quant;           /**< 1; fap_quant, 0 to 31. 0: values are sent as they are */
-    int intra;           /**< 250; at least one I plane in so many frames, 1 to 10000 */
-    int gender;          /**< 0; 1: male */
-    int plane_codes;     /**< 0: start codes in front of I planes; 1: in front of every plane */
+    size_t struct_size; /**< sizeof of this struct, set by init */
+    double rate_hz;     /**< 25; sent as the nearest of n/16 and n/16 * 1000/1001, up to 255.9375 */
+    int quant;          /**< 1; fap_quant, 0 to 31. 0: values are sent as they are */
+    int intra;          /**< 250; at least one I plane in so many frames, 1 to 10000 */
+    int gender;         /**< 0; 1: male */
+    int plane_codes;    /**< 0: start codes in front of I planes; 1: in front of every plane */
     fap_allocator alloc;
 } fap_encoder_config;
 
@@ -35,14 +35,16 @@ FAP_API void fap_encoder_config_init(fap_encoder_config *cfg);
 /** What was done so far. */
 typedef struct fap_encoder_stats {
     int64_t frames, intra_frames, bytes;
-    int64_t clipped; /**< values beyond what a plane can carry (1860 levels / fap_quant): later planes catch up */
+    int64_t
+        clipped; /**< values beyond what a plane can carry (1860 levels / fap_quant): later planes catch up */
 } fap_encoder_stats;
 
 /** @return FAP_OK; FAP_E_ARG; FAP_E_NOMEM. @p cfg NULL: defaults. *encoder is NULL unless FAP_OK. */
 FAP_API FAP_NODISCARD fap_err fap_encoder_open(fap_encoder **encoder, const fap_encoder_config *cfg);
 
 /**
- * One frame, copied. FAPs of state FAP_CODED are sent; the frame's place in time is that of @c pts_us, rounded to a frame.
+ * One frame, copied. FAPs of state FAP_CODED are sent; the frame's place in time is that of @c pts_us,
+ * rounded to a frame.
  * @return FAP_OK       taken
  *         FAP_E_AGAIN  not taken: receive a packet first, then send it again
  *         FAP_E_ARG    a viseme or expression out of its range; sent after flush
@@ -54,12 +56,15 @@ FAP_API void fap_encoder_flush(fap_encoder *encoder);
 /** Bytes that every packet fits into. */
 FAP_API size_t fap_encoder_bound(const fap_encoder *encoder);
 /**
- * The next packet: an I plane and its P planes, ending on a byte boundary. All packets in a row are the stream.
+ * The next packet: an I plane and its P planes, ending on a byte boundary. All packets in a row are the
+ * stream.
  * @param room  at least fap_encoder_bound()
  * @return FAP_OK; FAP_E_AGAIN send more frames; FAP_E_END the end code was given; FAP_E_ARG
  */
-FAP_API FAP_NODISCARD fap_err fap_encoder_receive(fap_encoder *encoder, uint8_t *data, size_t room, size_t *size);
-/** The frames of the last packet as a decoder will show them (state FAP_CODED only). Lives until the next call. */
+FAP_API FAP_NODISCARD fap_err fap_encoder_receive(fap_encoder *encoder, uint8_t *data, size_t room,
+                                                  size_t *size);
+/** The frames of the last packet as a decoder will show them (state FAP_CODED only). Lives until the next
+ * call. */
 FAP_API const fap_frame *fap_encoder_reconstruction(const fap_encoder *encoder, int *count);
 FAP_API fap_encoder_stats fap_encoder_get_stats(const fap_encoder *encoder);
 /** Sets @p *encoder to NULL; accepts NULL. */

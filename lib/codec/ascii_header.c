@@ -27,8 +27,7 @@ static words count_words(const char *line)
     return w;
 }
 
-/* No header has more than four words of 0 and 1: such a line is a mask, and if it is a wrong one, it is told
- * so. */
+/* No header has more than four words of 0 and 1: such a line is a mask, and is told what is wrong with it. */
 static int is_mask(const words *w)
 {
     return w->all_digits && w->count > 4;

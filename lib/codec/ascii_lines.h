@@ -11,8 +11,7 @@
 #include <fap/error.h>
 #include <fap/io.h>
 
-/* The longest value line of the format, 77 numbers of 11 characters, is far below; a name or a comment may be
- * long. */
+/* The longest value line, 78 numbers of 11 characters, is far below; a name or a comment may be long. */
 enum { ASCII_LINE_MAX = 16384, ASCII_BUFFER = 2 * ASCII_LINE_MAX };
 
 typedef struct ascii_lines {

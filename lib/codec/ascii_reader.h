@@ -85,8 +85,8 @@ fap_err fap_ascii_fail(fap_ascii_reader *r, fap_err err, const char *at, const c
     __attribute__((format(printf, 4, 5)));
 /* A deviation: told once, or fatal when strict. */
 void fap_ascii_note(fap_ascii_reader *r, ascii_deviation which);
-/* The next line that is neither comment nor empty. FAP_E_END is not yet final: the caller knows what is
- * missing. */
+/* The next line that is neither comment nor empty. FAP_E_END is not final: the caller knows what is missing.
+ */
 fap_err fap_ascii_next_line(fap_ascii_reader *r);
 
 /* What stands in front of the first mask: a header, nothing, or a lone time. */

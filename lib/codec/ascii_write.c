@@ -170,8 +170,7 @@ static char *put_values(char *p, const fap_frame *f, int64_t number)
     return p;
 }
 
-/* The frame number that lies nearest to the frame's time, so that gaps stay gaps; always above the one
- * before. */
+/* The frame number nearest to the frame's time, so that gaps stay gaps; always above the one before. */
 static int64_t next_number(const fap_ascii_writer *w, const fap_frame *f)
 {
     if (!w->written)

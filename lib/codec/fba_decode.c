@@ -244,8 +244,7 @@ static fap_err advance(fap_decoder *d, const plane_header *h)
 
 /*
  * Prediction is broken: what follows can only be found by its start code, and only an I plane helps. The
- * search begins at
- * @p at, where the plane did: a broken plane may have been read past the next start code.
+ * search begins where the plane did, at @p at: a broken plane may have been read past the next start code.
  */
 static void lose(fap_decoder *d, uint64_t at)
 {

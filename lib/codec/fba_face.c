@@ -69,8 +69,7 @@ static void read_range_table(fap_bits *b, fba_setup *s, int table)
         }
 }
 
-/* The table's ranges are installed once, with the quantiser of that plane; later ones stay until they are
- * sent again. */
+/* The table's ranges, once, with the quantiser of that plane; what is there stays until it is sent again. */
 static void install_default_ranges(fba_face_reader *r, fba_face *p)
 {
     if (p->has_ranges)

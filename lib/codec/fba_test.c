@@ -917,8 +917,7 @@ TEST(fba, real_files_decode_to_the_encoders_reconstruction)
             real_round_trip(names[i], quant);
 }
 
-/* 48 s of talking head: 9,977 bytes; with ranges by the table it took 16,336. Literature gives 0.3 to 3
- * kbit/s. */
+/* 48 s: 9,977 bytes; with the table's ranges they were 16,336. Literature gives 0.3 to 3 kbit/s. */
 TEST(fba, a_talking_head_takes_a_few_kilobits_a_second)
 {
     assert_in_range(real_round_trip("metaface_th-example-plain.fap", 1), 1000, 10500);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* See models.h. Counts accumulate from the highest symbol down: cum[k] is the sum of the counts of k and all
- * above. */
+/* See models.h. Counts accumulate downwards: cum[k] is the sum of the counts of k and all symbols above. */
 #include "codec/models.h"
 
 enum { TOTAL_MAX = 16383 };
