@@ -8,7 +8,7 @@
 
 #include "player/render/occlusion.h"
 
-enum { SIZE = 384, DIRECTIONS = 64, SMOOTHINGS = 3 };
+enum { SIZE = 320, DIRECTIONS = 40, SMOOTHINGS = 3 };
 
 /*
  * The face as it is measured: jaw and lips a little open, else the inside of the mouth and the rims of the

@@ -225,12 +225,14 @@ static void draw_scene(renderer *r, render_camera camera)
     gl->Viewport(0, 0, r->width, r->height);
     gl->Clear(GL_DEPTH_BUFFER_BIT);
     gl->Disable(GL_DEPTH_TEST);
+    gl->Disable(GL_CULL_FACE);
     gl->UseProgram(r->background);
     gl->BindVertexArray(r->background_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 
     camera_place(r->bank, camera, (float)r->width / (float)r->height, view_projection, eye);
     gl->Enable(GL_DEPTH_TEST);
+    gl->Enable(GL_CULL_FACE); /* the back of the head is half of the triangles */
     gl->UseProgram(r->face);
     gl->UniformMatrix4fv(r->view_projection, 1, GL_FALSE, view_projection[0]);
     gl->Uniform3fv(r->eye, 1, eye);
