@@ -922,3 +922,66 @@ TEST(fba, a_talking_head_takes_a_few_kilobits_a_second)
 {
     assert_in_range(real_round_trip("metaface_th-example-plain.fap", 1), 1000, 10500);
 }
+
+/* --- streams of another encoder --------------------------------------------------------------- */
+
+/* A frame as tests/conformance/fba/reference.py words it: number, V and E with their parameters, FAP:value.
+ */
+static void word_frame(char *text, size_t size, const fap_frame *f)
+{
+    const fap_viseme *v = &f->viseme;
+    const fap_expression *e = &f->expression;
+    int at = snprintf(text, size, "%d", (int)f->number);
+
+    if (f->state[1] == FAP_CODED)
+        at += snprintf(text + at, size - (size_t)at, " V %d %d %d %d", v->select1, v->select2, v->blend,
+                       v->def);
+    if (f->state[2] == FAP_CODED)
+        at += snprintf(text + at, size - (size_t)at, " E %d %d %d %d %d %d", e->select1, e->intensity1,
+                       e->select2, e->intensity2, e->init_face, e->def);
+    for (int fap = 3; fap <= FAP_COUNT; fap++)
+        if (f->state[fap] == FAP_CODED)
+            at += snprintf(text + at, size - (size_t)at, " %d:%d", fap, (int)f->value[fap]);
+    snprintf(text + at, size - (size_t)at, "\n");
+}
+
+static FILE *open_vector(int seed, const char *ending)
+{
+    char path[128];
+
+    snprintf(path, sizeof path, "tests/conformance/fba/random%d.%s", seed, ending);
+    FILE *f = fopen(path, "rb");
+    if (!f)
+        fail_msg("%s is not there", path);
+    return f;
+}
+
+static void check_vector(int seed)
+{
+    static uint8_t data[65536];
+    char want[2048], got[2048];
+    fap_decoder_config cfg;
+    fap_decoder *d;
+    FILE *stream_file = open_vector(seed, "fba"), *expected = open_vector(seed, "txt");
+    const size_t size = fread(data, 1, sizeof data, stream_file);
+
+    fap_decoder_config_init(&cfg);
+    cfg.strict = 1;
+    assert_int_equal(fap_decoder_open(&d, &cfg), FAP_OK);
+    assert_int_equal(fap_decoder_send(d, data, size), FAP_OK);
+    while (fgets(want, sizeof want, expected)) {
+        const fap_frame f = next_ok(d);
+        word_frame(got, sizeof got, &f);
+        assert_string_equal(got, want);
+    }
+    ends(d);
+    fclose(expected);
+    fclose(stream_file);
+}
+
+/* Mask types 0 to 3, ranges sent and not, seven classes of fap_quant, start codes at random, skips. */
+TEST(fba, streams_of_another_encoder_decode_to_its_values)
+{
+    for (int seed = 0; seed < 8; seed++)
+        check_vector(seed);
+}
