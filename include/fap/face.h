@@ -67,7 +67,7 @@ FAP_API size_t fap_face_stride(const fap_face *face);
  * FAPs of state FAP_ABSENT leave their axis free; all others are targets, absolute from neutral. Visemes and expressions
  * are laid down first, low-level FAPs override them where both speak. Every value is accepted: absurd ones end in a
  * distorted face, not in a broken one. With cfg.residual a commanded point is off by no more than rounding, except where
- * lips or lids would pass each other: they meet in the middle.
+ * lips or lids would pass each other: lips meet in the middle, an upper lid stops on the lower one.
  * @param position  x[stride] y[stride] z[stride], millimetres, 32-byte aligned
  * @param normal    the same layout, unit length; NULL: not wanted
  */

@@ -276,7 +276,7 @@ static float error_mm(const fap_face *face)
 
     for (int r = 0; r < face->row_count; r++) {
         const int p = face->row[r] / 3, axis = face->row[r] % 3;
-        const double e = face->point[p][axis] - face->neutral[p][axis] - face->target[p][axis];
+        const double e = face->point[p][axis] - face->neutral[p][axis] - face->asked[p][axis];
         sum += e * e;
     }
     return face->row_count ? (float)sqrt(sum / face->row_count) : 0;

@@ -15,7 +15,7 @@
 #include "bank/residual.h"
 #include "dsp/dsp.h"
 
-enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_SLITS = 5, FAP_RIVALS = 6 };
+enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_LIP_SLITS = 3, FAP_SLITS = 5, FAP_RIVALS = 6 };
 
 /* Keys with a part of their own, by bank index; -1 where the bank has none. */
 typedef struct fap_face_keys {
@@ -66,7 +66,7 @@ struct fap_face {
     uint32_t *follows; /* [vertex_count]: nearest skin vertex of a lash, itself for the rest */
     int *block_level;  /* [stride / FAP_BLOCK]: the head weight all lanes share, -1: they differ */
     int chin_row;
-    int slit[FAP_SLITS][2]; /* points that must not pass each other: upper, lower */
+    int slit[FAP_SLITS][2]; /* points that must not pass each other: upper, lower; lips, then lids */
     float spine[3];
     fap_normals normals;
     fap_residual residual;
@@ -74,7 +74,8 @@ struct fap_face {
     fap_ga ga;
 
     /* this frame */
-    float target[FAP_POINT_COUNT][3];   /* from neutral, millimetres */
+    float asked[FAP_POINT_COUNT][3];    /* from neutral, millimetres */
+    float target[FAP_POINT_COUNT][3];   /* the same as far as lids can follow */
     uint8_t wanted[FAP_POINT_COUNT][3]; /* of solvable points only */
     int row_count;
     uint16_t row[FAP_ROWS]; /* commanded rows: 3 * point + axis */

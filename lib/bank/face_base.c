@@ -116,19 +116,28 @@ static int drives_lids(const fap_frame *frame)
     return 0;
 }
 
+/* How much of a blink key makes the lids just touch; 1 where it never does. */
+static float touching(const fap_face *face, int key, int right)
+{
+    const int *lid = face->slit[FAP_LIP_SLITS + right];
+    const fap_key *k = face->key[key];
+    const float gap = face->neutral[lid[0]][1] - face->neutral[lid[1]][1];
+    const float closed = k->point_mm[lid[1]][1] - k->point_mm[lid[0]][1];
+
+    return gap > 0 && closed > gap ? gap / closed : 1;
+}
+
 static void lay_blink(fap_face *face, const fap_frame *frame)
 {
     const fap_face_keys *k = &face->known;
+    const int own[2] = { k->blink[0] >= 0 ? k->blink[0] : k->blink_both, k->blink[1] };
 
     if (!face->cfg.blink || drives_lids(frame))
         return;
     const float weight = blink_at(face->cfg.seed, frame->pts_us);
-    if (k->blink[0] < 0 || k->blink[1] < 0) {
-        fix(face, k->blink_both, weight);
-        return;
-    }
-    fix(face, k->blink[0], weight);
-    fix(face, k->blink[1], weight);
+    for (int right = 0; right < 2; right++)
+        if (own[right] >= 0)
+            fix(face, own[right], weight * touching(face, own[right], right));
 }
 
 static int any_fixed(const fap_face *face)

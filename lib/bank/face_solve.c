@@ -29,6 +29,20 @@ static float clampf(float x, float lo, float hi)
     return fminf(hi, fmaxf(lo, x));
 }
 
+/*
+ * An upper lid stops on the lower one. Asked for more (markers sit above the lid and travel further), the
+ * solver would shut the eye too tight to get there. What was asked is still what the error is measured
+ * against.
+ */
+static void stop_lid(fap_face *face, int upper, int lower)
+{
+    const float gap = face->neutral[upper][1] - face->neutral[lower][1];
+    const float lower_lid = face->wanted[lower][1] ? face->target[lower][1] : 0;
+
+    if (face->wanted[upper][1] && gap > 0)
+        face->target[upper][1] = fmaxf(face->target[upper][1], fminf(lower_lid - gap, 0));
+}
+
 void fap_face_read_targets(fap_face *face, const fap_frame *frame)
 {
     fap_face_targets(fap_bank_fapu(face->bank), frame, face->target, face->wanted);
@@ -41,6 +55,9 @@ void fap_face_read_targets(fap_face *face, const fap_frame *frame)
             if (face->wanted[p][axis])
                 face->row[face->row_count++] = (uint16_t)(3 * p + axis);
         }
+    memcpy(face->asked, face->target, sizeof face->asked);
+    for (int i = FAP_LIP_SLITS; i < FAP_SLITS; i++)
+        stop_lid(face, face->slit[i][0], face->slit[i][1]);
 }
 
 /* A mouth that does not quite close, or lids that leave a slit, are seen at once; a cheek half a millimetre
