@@ -68,10 +68,20 @@ static float brow_cover(const mh_face *f, const float p[3])
         return 0;
     const float along = (p[0] - a[0]) / (c[0] - a[0]);
     const float below = brow_line(a, b, c, p[0]) - 3 - p[1];
-    const float half =
-        (3.3f - 2.5f * smooth(0.3f, 1.02f, along)) * (0.45f + 0.55f * smooth(-0.1f, 0.22f, along));
-    const float ends = smooth(-0.06f, 0.06f, along) * (1 - smooth(0.95f, 1.06f, along));
-    return ends * (1 - smooth(half - 1.2f, half + 1.2f, fabsf(below)));
+    const float half = (3.3f - 2 * smooth(0.3f, 1, along)) * (0.45f + 0.55f * smooth(-0.1f, 0.22f, along));
+    const float ends = smooth(-0.06f, 0.06f, along) * (1 - smooth(0.82f, 1.02f, along));
+    return ends * (1 - smooth(half - 1.3f, half + 1.3f, fabsf(below)));
+}
+
+/* The rims of the lids, where lashes would grow: skin that all but touches the eyeball; the lower one is
+ * fainter. */
+static float lash_cover(const mh_face *f, const float p[3])
+{
+    const int right = p[0] < 0;
+    const float *c = f->eye_centre[right], x = p[0] - c[0], y = p[1] - c[1], z = p[2] - c[2];
+    const float over = sqrtf(x * x + y * y + z * z) - f->eye_radius[right];
+
+    return z < 0 ? 0 : (1 - smooth(1.6f, 3, over)) * (0.35f + 0.4f * smooth(-2, 2, y));
 }
 
 static void set(mh_face *f, uint32_t v, rgb c, float gloss)
@@ -98,18 +108,31 @@ static void paint_skin(mh_face *f, uint32_t v, const float uv[2])
     c = mix(c, lip, fmaxf(lips, 0.75f * bells(f, p, corners, 2.2f)));
     c = mix(c, inside, mouth);
     c = mix(c, shade, 0.7f * mask_sample(&s->lids, uv[0], uv[1]));
+    c = mix(c, brow, lash_cover(f, p));
     c = mix(c, brow, 0.92f * brow_cover(f, p));
     set(f, v, c, 0.14f + 0.10f * bells(f, p, nose, 11) + 0.22f * lips * (1 - mouth) + 0.45f * mouth);
 }
 
-/* The roots are gum; the ridge is one piece, so that lines between teeth would be a lie. */
+/* Sideways ends of the front teeth, from the midline; the ridge is one piece, shade alone parts it. */
+static float tooth_edge(float x, int lower)
+{
+    static const float upper_mm[] = { 0, 8, 14.5f, 21, 26 }, lower_mm[] = { 0, 5.5f, 11.5f, 18, 24 };
+    float nearest = 9;
+
+    for (int i = 0; i < 5; i++)
+        nearest = fminf(nearest, fabsf(fabsf(x) - (lower ? lower_mm : upper_mm)[i]));
+    return 1 - smooth(0.2f, 1.3f, nearest);
+}
+
+/* The roots are gum. */
 static void paint_teeth(mh_face *f, uint32_t v, int lower)
 {
     const float *edge = mh_face_point(f, lower ? "9.11" : "9.10"),
                 *root = mh_face_point(f, lower ? "9.9" : "9.8");
-    const float t = edge && root ? (f->position[v][1] - edge[1]) / (root[1] - edge[1]) : 0;
+    const float *p = f->position[v], t = edge && root ? (p[1] - edge[1]) / (root[1] - edge[1]) : 0;
+    const rgb ivory = mix(tooth, shade, 0.4f * tooth_edge(p[0], lower));
 
-    set(f, v, mix(tooth, gum, smooth(0.45f, 0.65f, t)), 0.75f);
+    set(f, v, mix(ivory, gum, smooth(0.5f, 0.68f, t)), 0.75f);
 }
 
 void mh_paint(mh_face *f)
