@@ -13,9 +13,10 @@
 #include "encoder/options.h"
 
 static const char help[] =
-    "Usage: fapenc TAKE -o OUT.fap [options]       encode a capture\n"
-    "       fapenc IN.fap -o OUT.fap               rewrite a FAP file, cleaned up\n"
-    "       fapenc inspect FILE.fap [--json]       what is inside\n"
+    "Usage: fapenc TAKE -o OUT [options]       encode a capture; OUT is .fap (text) or .fba (bits)\n"
+    "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; both ways without loss at "
+    "--quant 0\n"
+    "       fapenc inspect FILE [--json]       what is inside an .fap or .fba\n"
     "\n"
     "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
     "NAME_y, NAME_z\n"
@@ -34,6 +35,8 @@ static const char help[] =
     "      --smooth M        auto, none, or a cut-off frequency in Hz\n"
     "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
+    "      --quant Q         .fba: coarseness, 0 (exact) to 31; 1\n"
+    "      --intra N         .fba: at least one I plane in so many frames; 250\n"
     "      --json            the report as JSON on standard output\n"
     "      --quiet           errors only\n"
     "      --help, --version\n"
@@ -42,7 +45,8 @@ static const char help[] =
     "  fapenc jaw.c3d -o jaw.fap\n"
     "  fapenc take.csv --unit 184.8 --take-rate 25 --markers dots.csv -o take.fap\n"
     "  fapenc take.trc --neutral 120 --fapu anna.fapu --fps 30 --json -o take.fap > report.json\n"
-    "  fapenc inspect take.fap\n"
+    "  fapenc take.fap --quant 4 --intra 50 -o take.fba\n"
+    "  fapenc inspect take.fba\n"
     "\n"
     "Exit: 0 success, 1 bad data, 2 bad usage, 3 missing device or library. docs/markers.md says how to map "
     "markers.\n";
@@ -60,6 +64,8 @@ enum {
     OPT_FILL,
     OPT_START,
     OPT_END,
+    OPT_QUANT,
+    OPT_INTRA,
     OPT_JSON,
     OPT_QUIET,
     OPT_HELP,
@@ -80,6 +86,8 @@ static const struct option long_options[] = {
     { "fill", required_argument, NULL, OPT_FILL },
     { "start", required_argument, NULL, OPT_START },
     { "end", required_argument, NULL, OPT_END },
+    { "quant", required_argument, NULL, OPT_QUANT },
+    { "intra", required_argument, NULL, OPT_INTRA },
     { "json", no_argument, NULL, OPT_JSON },
     { "quiet", no_argument, NULL, OPT_QUIET },
     { "help", no_argument, NULL, OPT_HELP },
@@ -107,6 +115,16 @@ static int number(options *opt, const char *name, const char *text, double low, 
 static const char *unless_auto(const char *text)
 {
     return strcmp(text, "auto") ? text : NULL;
+}
+
+static int whole_number(options *opt, const char *name, const char *text, int low, int high, int *out)
+{
+    double v;
+
+    if (!number(opt, name, text, low, high, &v))
+        return 0;
+    *out = (int)v;
+    return 1;
 }
 
 static int parse_neutral(options *opt, const char *text)
@@ -168,6 +186,8 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_FILL: return parse_fill(opt, arg);
     case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);
     case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
+    case OPT_QUANT: return whole_number(opt, "quant", arg, 0, 31, &opt->bits.quant);
+    case OPT_INTRA: return whole_number(opt, "intra", arg, 1, 10000, &opt->bits.intra);
     case OPT_JSON: opt->json = 1; return 1;
     case OPT_QUIET: tool_quiet = 1; return 1;
     case OPT_HELP: fputs(help, stdout); return 0;
@@ -197,6 +217,7 @@ int options_parse(options *opt, int argc, char **argv)
 
     *opt = (options){ .exit_status = EXIT_OK };
     fap_capture_config_init(&opt->capture);
+    fap_encoder_config_init(&opt->bits);
     while ((c = getopt_long(argc, argv, "o:", long_options, NULL)) != -1)
         if (!parse_option(opt, c, optarg))
             return 0;

@@ -3,6 +3,7 @@
 #ifndef ENCODER_OPTIONS_H
 #define ENCODER_OPTIONS_H
 
+#include <fap/encoder.h>
 #include <fap/studio/capture.h>
 
 typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT } command;
@@ -15,6 +16,7 @@ typedef struct options {
     double mm_per_unit;  /* 0: as the file says */
     int rate_given;      /* --fps was there */
     fap_capture_config capture;
+    fap_encoder_config bits; /* how an .fba is coded; its rate is the frames' */
     int json;
     int exit_status; /* when parsing says to stop */
 } options;

@@ -268,6 +268,10 @@ static void json_capture(const options *opt, const run_report *rep)
     json_string(&j, "output", opt->output);
     json_integer(&j, "frames", r->frames);
     json_number(&j, "rate_hz", r->rate_hz);
+    if (rep->written.frames) {
+        json_integer(&j, "bytes", rep->written.bytes);
+        json_integer(&j, "clipped", rep->written.clipped);
+    }
     json_markers(&j, rep, r);
     json_cleaning(&j, r);
     json_head(&j, rep, r);
@@ -291,19 +295,35 @@ static int coded_faps(const stream_summary *s)
     return n;
 }
 
+static int is_bits(const stream_summary *s)
+{
+    return !strcmp(s->format, "fba");
+}
+
+static double kbit_s(const stream_summary *s)
+{
+    return s->frames ? (double)s->size * 8 * s->header.rate_hz / (double)s->frames / 1000 : 0;
+}
+
 static void json_stream(const options *opt, const stream_summary *s)
 {
     json j = { .out = stdout };
 
     json_open(&j, NULL, '{');
     json_string(&j, "path", opt->input);
-    json_string(&j, "format", "fap");
+    json_string(&j, "format", s->format);
     json_string(&j, "version", s->header.version);
     json_string(&j, "name", s->header.name);
     json_number(&j, "rate_hz", s->header.rate_hz);
     json_integer(&j, "frames", (int64_t)s->frames);
     json_number(&j, "length_s", (double)s->frames / s->header.rate_hz);
     json_integer(&j, "coded_faps", coded_faps(s));
+    json_integer(&j, "bytes", (int64_t)s->size);
+    if (is_bits(s)) {
+        json_integer(&j, "intra_frames", (int64_t)s->intra_frames);
+        json_integer(&j, "broken_planes", (int64_t)s->broken_planes);
+        json_number(&j, "kbit_s", kbit_s(s));
+    }
     json_open(&j, "faps", '[');
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
         const stream_fap *f = &s->fap[fap];
@@ -316,6 +336,8 @@ static void json_stream(const options *opt, const stream_summary *s)
         json_integer(&j, "min", f->min);
         json_integer(&j, "max", f->max);
         json_number(&j, "mean", f->sum / (double)f->coded);
+        if (is_bits(s))
+            json_integer(&j, "bits", (int64_t)f->bits);
         json_close(&j, '}');
     }
     json_close(&j, ']');
@@ -330,23 +352,47 @@ static void json_stream(const options *opt, const stream_summary *s)
 static void say_stream_notes(const stream_summary *s)
 {
     for (int i = 0; i < s->notice_count; i++)
-        tool_note("line %" PRId64 ": %s", s->notice[i].line, s->notice[i].text);
+        tool_note("%s %" PRId64 ": %s", is_bits(s) ? "bit" : "line", s->notice[i].where, s->notice[i].text);
+    if (s->broken_planes)
+        tool_note("%" PRIu64 " planes are broken and were passed over", s->broken_planes);
+}
+
+static void print_fap(const stream_summary *s, int fap)
+{
+    const stream_fap *f = &s->fap[fap];
+
+    printf("%3d %-26s %8" PRIu64 " frames", fap, fap_info_get(fap)->name, f->coded);
+    if (fap > 2)
+        printf(", %6d .. %-6d mean %.1f", (int)f->min, (int)f->max, f->sum / (double)f->coded);
+    if (is_bits(s))
+        printf(", %" PRIu64 " bits", f->bits);
+    putchar('\n');
 }
 
 static void print_inspection(const options *opt, const stream_summary *s)
 {
-    printf("%s: FAP file%s%s%s%s\n", opt->input, *s->header.version ? ", version " : "", s->header.version,
-           *s->header.name ? ", name " : "", s->header.name);
+    printf("%s: %s%s%s%s%s\n", opt->input, is_bits(s) ? "FBA stream" : "FAP file",
+           *s->header.version ? ", version " : "", s->header.version, *s->header.name ? ", name " : "",
+           s->header.name);
     printf("%" PRIu64 " frames at %g Hz, %.2f s, %d FAPs\n", s->frames, s->header.rate_hz,
            (double)s->frames / s->header.rate_hz, coded_faps(s));
-    for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        const stream_fap *f = &s->fap[fap];
-        if (fap <= 2 && f->coded)
-            printf("%3d %-26s %8" PRIu64 " frames\n", fap, fap_info_get(fap)->name, f->coded);
-        else if (f->coded)
-            printf("%3d %-26s %8" PRIu64 " frames, %6d .. %-6d mean %.1f\n", fap, fap_info_get(fap)->name,
-                   f->coded, (int)f->min, (int)f->max, f->sum / (double)f->coded);
-    }
+    if (is_bits(s))
+        printf("%" PRIu64 " bytes, %" PRIu64 " I planes, %.2f kbit/s\n", s->size, s->intra_frames, kbit_s(s));
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (s->fap[fap].coded)
+            print_fap(s, fap);
+}
+
+static void say_written(const options *opt, const run_report *rep)
+{
+    const fap_encoder_stats *w = &rep->written;
+
+    if (w->frames)
+        tool_note("%s: %" PRId64 " bytes, %" PRId64 " I planes", opt->output, w->bytes, w->intra_frames);
+    if (w->clipped)
+        tool_note("note: %" PRId64
+                  " values are beyond what a plane can carry at this --quant; later planes catch up",
+                  w->clipped);
 }
 
 static void report_success(const options *opt, const run_report *rep)
@@ -360,6 +406,7 @@ static void report_success(const options *opt, const run_report *rep)
     else
         tool_note("%s: %" PRIu64 " frames at %g Hz, %d FAPs", opt->output, rep->stream.frames,
                   rep->stream.header.rate_hz, coded_faps(&rep->stream));
+    say_written(opt, rep);
     if (rep->is_stream)
         say_stream_notes(&rep->stream);
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "common/fapu_file.h"
 #include "common/file.h"
@@ -25,108 +26,58 @@ static fap_err fail_errno(run_report *rep, fap_err err, const char *path)
     return fail(rep, err, path, err == FAP_E_IO && errno ? strerror(errno) : NULL);
 }
 
-/* --- FAP files
- * ----------------------------------------------------------------------------------------------------------
- */
-
-typedef struct memory {
-    const uint8_t *at;
-    size_t left;
-} memory;
-
-static size_t read_memory(void *user, void *buf, size_t size)
-{
-    memory *m = user;
-    const size_t n = size < m->left ? size : m->left;
-
-    if (n)
-        memcpy(buf, m->at, n);
-    m->at += n;
-    m->left -= n;
-    return n;
-}
-
-static void take_notice(void *user, int64_t line, const char *text)
-{
-    stream_summary *s = user;
-
-    if (s->notice_count == RUN_MAX_NOTICES)
-        return;
-    s->notice[s->notice_count].line = line;
-    s->notice[s->notice_count++].text = text;
-}
-
-static void count_frame(stream_summary *s, const fap_frame *f)
-{
-    s->frames++;
-    for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        stream_fap *c = &s->fap[fap];
-        const int32_t v = f->value[fap];
-        if (f->state[fap] != FAP_CODED)
-            continue;
-        c->min = c->coded && c->min < v ? c->min : v;
-        c->max = c->coded && c->max > v ? c->max : v;
-        c->sum += v;
-        c->coded++;
-    }
-}
-
-/* Reads a whole stream; hands every frame to @p writer when there is one, otherwise counts into @p s. */
-static fap_err read_stream(memory bytes, stream_summary *s, fap_ascii_writer *writer, char *where)
-{
-    const fap_reader in = { read_memory, &bytes };
-    fap_ascii_reader_config cfg;
-    fap_ascii_reader *reader;
-    fap_frame frame;
-
-    fap_ascii_reader_config_init(&cfg);
-    cfg.notice = writer ? NULL : take_notice;
-    cfg.notice_user = s;
-    fap_err err = fap_ascii_reader_open(&reader, &in, &cfg, where);
-    if (err != FAP_OK)
-        return err;
-    s->header = *fap_ascii_reader_header(reader);
-    while (err == FAP_OK && (err = fap_ascii_reader_next(reader, &frame)) == FAP_OK) {
-        if (writer)
-            err = fap_ascii_writer_put(writer, &frame);
-        else
-            count_frame(s, &frame);
-    }
-    if (err != FAP_E_END)
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", fap_ascii_reader_last_error(reader));
-    fap_ascii_reader_close(&reader);
-    return err == FAP_E_END ? FAP_OK : err;
-}
-
 /* --- writing
  * ------------------------------------------------------------------------------------------------------------
  */
 
 /* Gives frames to a writer. */
 typedef struct frame_source {
-    const fap_frame *frames; /* NULL: the stream in @c bytes */
-    memory bytes;
-    stream_summary *summary;
+    const fap_frame *frames; /* NULL: the stream in @c data */
+    const uint8_t *data;
+    size_t size;
 } frame_source;
 
-static fap_err write_frames(const fap_writer *out, const fap_ascii_header *header, frame_source *src)
+static fap_err put_frame(void *user, const fap_frame *frame)
 {
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-    fap_ascii_writer *writer;
+    return stream_writer_put(user, frame);
+}
 
-    fap_err err = fap_ascii_writer_open(&writer, out, header, NULL);
-    if (err != FAP_OK)
-        return err;
-    for (int64_t i = 0; src->frames && i < header->frame_count && err == FAP_OK; i++)
-        err = fap_ascii_writer_put(writer, &src->frames[i]);
+static int wants_bits(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strcasecmp(dot, ".fba");
+}
+
+static fap_err put_all(stream_writer *w, const fap_ascii_header *header, const frame_source *src)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    stream_summary again;
+    const frame_sink sink = { put_frame, w };
+    fap_err err = FAP_OK;
+
     if (!src->frames)
-        err = read_stream(src->bytes, src->summary, writer, where);
-    const fap_err closed = fap_ascii_writer_close(&writer);
+        return stream_read(src->data, src->size, &again, &sink, where);
+    for (int64_t i = 0; i < header->frame_count && err == FAP_OK; i++)
+        err = stream_writer_put(w, &src->frames[i]);
+    return err;
+}
+
+static fap_err write_frames(const options *opt, run_report *rep, const fap_writer *out,
+                            const fap_ascii_header *header, const frame_source *src)
+{
+    fap_encoder_config bits = opt->bits;
+    stream_writer w;
+
+    bits.rate_hz = header->rate_hz;
+    fap_err err = stream_writer_open(&w, out, header, wants_bits(opt->output) ? &bits : NULL);
+    if (err == FAP_OK)
+        err = put_all(&w, header, src);
+    const fap_err closed = stream_writer_close(&w, &rep->written);
     return err != FAP_OK ? err : closed;
 }
 
 static fap_err write_output(const options *opt, run_report *rep, const fap_ascii_header *header,
-                            frame_source *src)
+                            const frame_source *src)
 {
     out_file out;
 
@@ -134,7 +85,7 @@ static fap_err write_output(const options *opt, run_report *rep, const fap_ascii
     if (out_file_open(&out, opt->output) != FAP_OK)
         return fail_errno(rep, FAP_E_IO, opt->output);
     const fap_writer w = file_writer(out.stream);
-    const fap_err err = write_frames(&w, header, src);
+    const fap_err err = write_frames(opt, rep, &w, header, src);
     if (err != FAP_OK) {
         out_file_abandon(&out);
         return fail_errno(rep, err, opt->output);
@@ -157,7 +108,7 @@ static void sequence_name(const char *path, char *out, size_t room)
  * ------------------------------------------------------------------------------------------------------------
  */
 
-static fap_err transcode(const options *opt, run_report *rep, memory bytes)
+static fap_err transcode(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
     fap_ascii_header header = rep->stream.header;
 
@@ -165,16 +116,16 @@ static fap_err transcode(const options *opt, run_report *rep, memory bytes)
     snprintf(header.version, sizeof header.version, "2.1");
     if (!header.present)
         sequence_name(opt->input, header.name, sizeof header.name);
-    frame_source src = { NULL, bytes, &rep->stream };
+    const frame_source src = { NULL, data, size };
     return write_output(opt, rep, &header, &src);
 }
 
-static fap_err summarise(const options *opt, run_report *rep, memory bytes)
+static fap_err summarise(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
     char where[FAP_ERROR_TEXT_SIZE] = "";
 
     rep->is_stream = 1;
-    const fap_err err = read_stream(bytes, &rep->stream, NULL, where);
+    const fap_err err = stream_read(data, size, &rep->stream, NULL, where);
     return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
 }
 
@@ -184,7 +135,7 @@ static fap_err write_capture(const options *opt, run_report *rep)
     fap_ascii_header header = {
         .version = "2.1", .rate_hz = r->rate_hz, .frame_count = r->frames, .present = 1
     };
-    frame_source src = { .frames = fap_capture_frames(rep->capture) };
+    const frame_source src = { .frames = fap_capture_frames(rep->capture) };
 
     sequence_name(opt->input, header.name, sizeof header.name);
     return write_output(opt, rep, &header, &src);
@@ -225,7 +176,7 @@ static fap_err encode(const options *opt, run_report *rep)
 }
 
 /* Not a capture? A FAP file has nothing to sniff by, so it is what is left to try. */
-static fap_err encode_bytes(const options *opt, run_report *rep, memory bytes)
+static fap_err encode_bytes(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
     fap_take_config cfg;
     char where[FAP_ERROR_TEXT_SIZE];
@@ -233,16 +184,16 @@ static fap_err encode_bytes(const options *opt, run_report *rep, memory bytes)
     fap_take_config_init(&cfg);
     cfg.rate_hz = opt->take_rate_hz;
     cfg.mm_per_unit = opt->mm_per_unit;
-    const fap_err err = fap_take_read(&rep->take, bytes.at, bytes.left, &cfg, where);
+    const fap_err err = fap_take_read(&rep->take, data, size, &cfg, where);
     if (err == FAP_OK)
         return encode(opt, rep);
     if (err != FAP_E_UNKNOWN_FORMAT)
         return fail(rep, err, opt->input, where);
-    if (summarise(opt, rep, bytes) != FAP_OK || !rep->stream.frames) {
+    if (summarise(opt, rep, data, size) != FAP_OK || !rep->stream.frames) {
         rep->is_stream = 0;
         return fail(rep, err, opt->input, where);
     }
-    return transcode(opt, rep, bytes);
+    return transcode(opt, rep, data, size);
 }
 
 fap_err run(const options *opt, run_report *rep)
@@ -254,9 +205,8 @@ fap_err run(const options *opt, run_report *rep)
     const fap_err read = file_read(opt->input, max_input, &data, &size);
     if (read != FAP_OK)
         return fail_errno(rep, read, opt->input);
-    const memory bytes = { data, size };
-    const fap_err err =
-        opt->command == COMMAND_INSPECT ? summarise(opt, rep, bytes) : encode_bytes(opt, rep, bytes);
+    const fap_err err = opt->command == COMMAND_INSPECT ? summarise(opt, rep, data, size)
+                                                        : encode_bytes(opt, rep, data, size);
     free(data);
     return err;
 }

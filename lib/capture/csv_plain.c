@@ -77,6 +77,42 @@ static void add_points(take_grid *g)
     }
 }
 
+/* What one row says in a column of that name; 0 where it says nothing. */
+static double value_in_body(const take_grid *g, text_row *row, size_t column)
+{
+    text_lines lines = g->body;
+    double v = 0;
+    text line;
+
+    if (column == row->count || !text_next(&lines, &line))
+        return 0;
+    text_split(line, g->separator, row);
+    return text_number(text_cell(row, column), &v) == TEXT_NUMBER && v > 0 ? v : 0;
+}
+
+static size_t column_of(const text_row *row, const char *name)
+{
+    size_t column = 0;
+
+    while (column < row->count && !text_is(row->cell[column], name))
+        column++;
+    return column;
+}
+
+/* Landmarks as fractions of a picture (MediaPipe): x and z count widths, y heights, so lengths need both. */
+static void scale_by_picture(take_grid *g)
+{
+    const size_t width_column = column_of(&g->row, "image_width"),
+                 height_column = column_of(&g->row, "image_height");
+
+    if (width_column == g->row.count || height_column == g->row.count)
+        return;
+    const double width = value_in_body(g, &g->row, width_column);
+    const double height = value_in_body(g, &g->row, height_column);
+    if (width > 0 && height > 0)
+        g->scale[1] = height / width;
+}
+
 static void find_keys(take_grid *g)
 {
     for (size_t column = g->row.count; column-- > 0;) {
@@ -137,6 +173,7 @@ static fap_err plain_read(take_source *src, fap_take **take)
     find_keys(g);
     add_points(g);
     g->body = lines;
+    scale_by_picture(g);
     const fap_err err = grid_read(src, g, "table", take);
     grid_close(src, g);
     return err;

@@ -23,7 +23,7 @@ take_grid *grid_open(take_source *src)
         return NULL;
     g->frame_column = g->time_column = g->filter_column = -1;
     g->time_scale = 1;
-    g->sign[0] = g->sign[1] = g->sign[2] = 1;
+    g->scale[0] = g->scale[1] = g->scale[2] = 1;
     return g;
 }
 
@@ -115,7 +115,7 @@ static void read_row(const take_grid *g, fap_take *take, uint32_t frame)
         for (int axis = 0; axis < 3; axis++) {
             double v = 0;
             known &= number_in(g, g->point[p].column[axis], &v);
-            xyz[axis] = (float)(g->sign[axis] * v);
+            xyz[axis] = (float)(g->scale[axis] * v);
         }
         if (known)
             fap_take_set(take, frame, p, xyz);
@@ -151,10 +151,15 @@ static double snap_rate(double hz)
 
 static void settle_rate(const take_grid *g, const row_census *c, fap_take *take)
 {
+    static const double fastest_hz = 600;
     const double length_s = c->last_s - c->first_s;
     const double timed = c->timed && length_s > 0 ? snap_rate((take->frame_count - 1) / length_s) : 0;
 
     take->rate_hz = g->rate_hz > 0 ? g->rate_hz : timed;
+    if (take->rate_hz > fastest_hz && !(g->rate_hz > 0)) {
+        take_note(take, "the times say %.4g frames a second: an image sequence without times?", timed);
+        take->rate_hz = 0;
+    }
     if (g->rate_hz > 0 && timed > 0 && fabs(timed - g->rate_hz) > 0.02 * g->rate_hz)
         take_note(take, "the head says %g frames a second, the times say %.4g; the head is used", g->rate_hz,
                   timed);

@@ -21,7 +21,7 @@ typedef struct take_grid {
     int frame_column, time_column; /* -1: none */
     double time_scale;             /* seconds in a unit of the time column */
     double rate_hz, mm_per_unit;   /* 0: unknown */
-    int8_t sign[3];                /* every coordinate is multiplied with it */
+    double scale[3];               /* every coordinate is multiplied with it */
     int filter_column; /* rows whose cell here is a number below filter_least are missing; -1: none */
     double filter_least;
     uint32_t point_count;

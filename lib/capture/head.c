@@ -77,7 +77,8 @@ static void extend(performance *p)
 
 /*
  * Forehead markers ride on the brows: in a brow take they turn the head by degrees and the chin by a
- * centimetre. When the set's markers do not keep their distances, a group that does is better.
+ * centimetre. When the set's markers do not keep their distances, a larger group that does is better. (A
+ * smaller one is often just close together.)
  */
 static int replace_loose(performance *p)
 {
@@ -88,7 +89,7 @@ static int replace_loose(performance *p)
     if (named.rms_mm < loose_mm)
         return 0;
     if (rigid_body_find(&p->body, p->take, candidate, list_points(p, is_free, candidate)) &&
-        p->body.rms_mm < named.rms_mm) {
+        p->body.count > named.count && p->body.rms_mm < named.rms_mm) {
         performance_note(
             p,
             "the set's rigid markers stray by %.2f mm, others keep together within %.2f mm: those are used",

@@ -97,14 +97,20 @@ static float *slot(fap_fapu *fapu, int unit)
     }
 }
 
-static void note_odd(performance *p, const struct proportion *row, float mm)
+/* Tells when a measure is unlike a face of this size. Lids half closed at rest are no iris: that one is not
+ * used. */
+static int is_believed(performance *p, const struct proportion *row, float mm)
 {
     static const char *const names[] = { "", "IRISD", "ES", "ENS", "MNS", "MW" };
     const double ratio = mm / (row->typical_mm * p->report->fapu_scale);
 
-    if (ratio < 0.6 || ratio > 1.5)
-        performance_note(p, "%s is %.1f mm, %.2f times what a face of this size usually has; --fapu sets it",
-                         names[row->unit], (double)mm, ratio);
+    if (ratio >= 0.6 && ratio <= 1.5)
+        return 1;
+    const int used = row->unit != FAP_UNIT_IRISD;
+    performance_note(p,
+                     "%s measures %.1f mm, %.2f times what a face of this size usually has%s; --fapu sets it",
+                     names[row->unit], (double)mm, ratio, used ? "" : ": not used");
+    return used;
 }
 
 fap_err fapu_settle(performance *p)
@@ -118,11 +124,9 @@ fap_err fapu_settle(performance *p)
         if (!out)
             continue;
         const float mm = measured(p, &proportions[i], &near);
-        const int use = mm > 0 && !near;
+        const int use = mm > 0 && !near && is_believed(p, &proportions[i], mm);
         *out = use ? mm : (float)(proportions[i].typical_mm * r->fapu_scale);
         r->fapu_origin[proportions[i].unit - FAP_UNIT_IRISD] = use ? FAP_ORIGIN_MEASURED : FAP_ORIGIN_SCALED;
-        if (use)
-            note_odd(p, &proportions[i], mm);
     }
     if (p->cfg->fapu) {
         r->fapu = *p->cfg->fapu;

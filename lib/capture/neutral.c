@@ -13,7 +13,7 @@
 
 /* What the choice is made from, a number a frame; NAN where the head is not seen. */
 typedef struct moments {
-    double *speed, *mouth, *distance, *scratch;
+    double *speed, *mouth, *lids, *distance, *scratch;
     uint32_t frames;
 } moments;
 
@@ -81,11 +81,15 @@ static double speed_at(const performance *p, uint32_t frame)
     return last > first ? change(p, first, frame) + change(p, frame, last) : 0;
 }
 
-/* One of the distances that grow when the mouth opens; the first that the take has. */
-static const struct {
+/* Two feature points whose distance says something. */
+typedef struct point_pair {
     const char *upper, *lower;
-} mouth_pairs[] = { { "2.2", "2.3" }, { "8.1", "8.2" },  { "9.3", "2.10" },
-                    { "9.3", "2.1" }, { "8.1", "2.10" }, { "8.1", "2.1" } };
+} point_pair;
+
+/* Distances that grow when the mouth opens, and when the eyes do; the first that the take has is used. */
+static const point_pair mouth_pairs[] = { { "2.2", "2.3" }, { "8.1", "8.2" },  { "9.3", "2.10" },
+                                          { "9.3", "2.1" }, { "8.1", "2.10" }, { "8.1", "2.1" } };
+static const point_pair lid_pairs[] = { { "3.1", "3.3" }, { "3.2", "3.4" } };
 
 static int still_point(const performance *p, uint32_t frame, int feature_point, double out[3])
 {
@@ -102,11 +106,11 @@ static int still_point(const performance *p, uint32_t frame, int feature_point, 
     return s->count > 0;
 }
 
-static double mouth_at(const performance *p, uint32_t frame)
+/* 0 when the take has none of the pairs; NAN when the one it has is hidden. */
+static double distance_at(const performance *p, uint32_t frame, const point_pair *pair, size_t count)
 {
-    for (size_t i = 0; i < sizeof mouth_pairs / sizeof *mouth_pairs; i++) {
-        const int upper = fap_point_by_name(mouth_pairs[i].upper),
-                  lower = fap_point_by_name(mouth_pairs[i].lower);
+    for (size_t i = 0; i < count; i++) {
+        const int upper = fap_point_by_name(pair[i].upper), lower = fap_point_by_name(pair[i].lower);
         double a[3], b[3];
         if (!p->report->markers.point[upper].count || !p->report->markers.point[lower].count)
             continue;
@@ -146,7 +150,8 @@ static void measure(const performance *p, moments *m)
 
     for (uint32_t f = 0; f < m->frames; f++) {
         m->speed[f] = speed_at(p, f);
-        m->mouth[f] = mouth_at(p, f);
+        m->mouth[f] = distance_at(p, f, mouth_pairs, sizeof mouth_pairs / sizeof *mouth_pairs);
+        m->lids[f] = distance_at(p, f, lid_pairs, sizeof lid_pairs / sizeof *lid_pairs);
         m->distance[f] = change(p, f, usual);
     }
 }
@@ -162,12 +167,13 @@ static uint32_t best_frame(const moments *m)
     const double speed = quantile(m->speed, m->frames, 0.5, m->scratch) + 0.1;
     const double distance = quantile(m->distance, m->frames, 0.5, m->scratch) + 0.5;
     const double closed = quantile(m->mouth, m->frames, 0.2, m->scratch);
+    const double awake = quantile(m->lids, m->frames, 0.7, m->scratch);
     double least = INFINITY;
     uint32_t best = 0;
 
     for (uint32_t f = 0; f < m->frames; f++) {
-        const double open = fabs(m->mouth[f] - closed) / 2;
-        const double score = m->speed[f] / speed + m->distance[f] / distance + open;
+        const double open = fabs(m->mouth[f] - closed) / 2, asleep = fabs(m->lids[f] - awake) / 2;
+        const double score = m->speed[f] / speed + m->distance[f] / distance + open + asleep;
         if (score < least) {
             least = score;
             best = f;
@@ -179,11 +185,12 @@ static uint32_t best_frame(const moments *m)
 static fap_err choose(performance *p, uint32_t *frame)
 {
     const fap_allocator *a = &p->take->alloc;
-    double *v = fap_mem_calloc(a, p->frames, 4 * sizeof *v);
+    double *v = fap_mem_calloc(a, p->frames, 5 * sizeof *v);
 
     if (!v)
         return FAP_E_NOMEM;
-    moments m = { v, v + p->frames, v + 2 * (size_t)p->frames, v + 3 * (size_t)p->frames, p->frames };
+    const size_t n = p->frames;
+    moments m = { v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, p->frames };
     measure(p, &m);
     *frame = best_frame(&m);
     fap_mem_free(a, v);

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* FAP streams of both kinds, .fap text and .fba bits, behind one way to read and one to write. */
+#ifndef ENCODER_STREAMS_H
+#define ENCODER_STREAMS_H
+
+#include <fap/ascii.h>
+#include <fap/encoder.h>
+
+enum { STREAM_MAX_NOTICES = 16 };
+
+/* A FAP over a whole stream. */
+typedef struct stream_fap {
+    uint64_t coded, bits;
+    int32_t min, max;
+    double sum;
+} stream_fap;
+
+/* What a stream holds. */
+typedef struct stream_summary {
+    const char *format;      /* "fap" or "fba" */
+    fap_ascii_header header; /* an .fba has a rate and no more */
+    uint64_t frames, intra_frames, broken_planes, size;
+    stream_fap fap[FAP_COUNT + 1];
+    struct {
+        int64_t where; /* line or bit */
+        const char *text;
+    } notice[STREAM_MAX_NOTICES];
+    int notice_count;
+} stream_summary;
+
+/* Takes one frame after the other; anything but FAP_OK ends the reading. */
+typedef struct frame_sink {
+    fap_err (*put)(void *user, const fap_frame *frame);
+    void *user;
+} frame_sink;
+
+/* Reads a whole stream, counts into @p s and hands frames to @p sink (may be NULL). @p where:
+ * FAP_ERROR_TEXT_SIZE bytes. */
+fap_err stream_read(const uint8_t *data, size_t size, stream_summary *s, const frame_sink *sink, char *where);
+
+typedef struct stream_writer {
+    fap_ascii_writer *text;
+    fap_encoder *bits;
+    fap_writer out;
+    uint8_t *packet;
+    size_t packet_room;
+} stream_writer;
+
+/* @p bits: NULL writes text, otherwise how to code bits. */
+fap_err stream_writer_open(stream_writer *w, const fap_writer *out, const fap_ascii_header *header,
+                           const fap_encoder_config *bits);
+fap_err stream_writer_put(stream_writer *w, const fap_frame *frame);
+/* Frees in any case. @p stats: what became of the frames, all 0 for text. */
+fap_err stream_writer_close(stream_writer *w, fap_encoder_stats *stats);
+
+#endif

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-2-Clause
+# Text to bits and back: without loss at --quant 0, within half a step otherwise; broken bits are named.
+. tests/cli/lib.bash
+
+# A wave on every tenth FAP, small enough for an I plane.
+awk 'BEGIN {
+    print "2.1 wave 25 300"
+    for (f = 0; f < 300; f++) {
+        mask = ""; values = f
+        for (fap = 1; fap <= 68; fap++) {
+            on = fap % 10 == 3
+            mask = mask (fap > 1 ? " " : "") on
+            if (on) values = values " " int(500 * sin(f / 10 + fap))
+        }
+        print mask; print values
+    }
+}' >"$T/a.fap"
+
+expect 0 "$B/fapenc" "$T/a.fap" --quant 0 -o "$T/a.fba"
+says 'I planes'
+expect 0 "$B/fapenc" "$T/a.fba" -o "$T/b.fap"
+cmp -s <(tail -n +2 "$T/a.fap") <(tail -n +2 "$T/b.fap") || fail "--quant 0 is not without loss"
+expect 0 "$B/fapenc" inspect "$T/a.fba"
+says '300 frames at 25 Hz'
+expect 0 "$B/fapenc" "$T/a.fap" --quant 8 --intra 50 -o "$T/c.fba"
+[ "$(stat -c %s "$T/c.fba")" -lt "$(stat -c %s "$T/a.fba")" ] || fail "a coarser quantiser saves nothing"
+expect 0 "$B/fapenc" "$T/c.fba" -o - --quiet
+[ "$(wc -l <"$T/out")" -eq 601 ] || fail "frames are missing"
+
+head -c 8 "$T/a.fba" >"$T/cut.fba"
+expect 1 "$B/fapenc" inspect "$T/cut.fba"
+says 'cut.fba'
+expect 2 "$B/fapenc" "$T/a.fap" --quant 32 -o "$T/x.fba"
+[ ! -e "$T/x.fba" ] || fail "a failed run left an output"
