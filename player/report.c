@@ -73,8 +73,8 @@ static void say_success(const play_report *r, const play_options *o)
     else if (o->golden)
         tool_note("%s: %" PRId64 " pictures, all the same", o->golden, r->result.same);
     else
-        tool_note("%s: %" PRId64 " frame%s of %.2f s at %g Hz", o->output, r->shown_frames,
-                  r->shown_frames == 1 ? "" : "s", r->stream_s, r->rate_hz);
+        tool_note("%s: %" PRId64 " frame%s at %g Hz (the stream lasts %.2f s)", o->output, r->shown_frames,
+                  r->shown_frames == 1 ? "" : "s", r->rate_hz, r->stream_s);
 }
 
 int play_report_print(const play_report *r, const play_options *o)

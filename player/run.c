@@ -74,7 +74,7 @@ static int check_sound(player *p)
     if (err)
         return fault_set(&r->fault, err == FAP_E_UNSUPPORTED ? EXIT_MISSING : EXIT_DATA, "%s: %s",
                          p->opt->audio, where);
-    if (fabs(r->sound_s - r->stream_s) > 0.5)
+    if (!p->opt->has_range && fabs(r->sound_s - r->stream_s) > 0.5)
         play_report_note(r, "%s lasts %.2f s, the stream %.2f s; the film is as long as the stream",
                          p->opt->audio, r->sound_s, r->stream_s);
     return 1;
