@@ -109,8 +109,10 @@ static void scale_by_picture(take_grid *g)
         return;
     const double width = value_in_body(g, &g->row, width_column);
     const double height = value_in_body(g, &g->row, height_column);
-    if (width > 0 && height > 0)
+    if (width > 0 && height > 0) {
         g->scale[1] = height / width;
+        g->mm_per_unit = -1;
+    }
 }
 
 static void find_keys(take_grid *g)

@@ -12,7 +12,8 @@
 #include "capture/take_driver.h"
 
 static const take_driver *const drivers[] = {
-    &take_driver_c3d, &take_driver_trc, &take_driver_nexus, &take_driver_motive, &take_driver_plain,
+    &take_driver_c3d,   &take_driver_trc,      &take_driver_nexus,        &take_driver_motive,
+    &take_driver_plain, &take_driver_openface, &take_driver_coefficients,
 };
 
 /* A coordinate past this is no measurement, and squaring it must not overflow a float. */
@@ -338,7 +339,9 @@ static double guess_unit(fap_take *take)
 
     if (!(s > 0))
         return 1;
-    const double mm = s > 50 && s < 5000       ? 1
+    const int has_unit = take->mm_per_unit >= 0;
+    const double mm = !has_unit                ? typical_mm / s
+                      : s > 50 && s < 5000     ? 1
                       : s >= 5 && s <= 50      ? 10
                       : s >= 0.05 && s <= 0.35 ? 1000
                                                : typical_mm / s;
@@ -433,9 +436,10 @@ fap_err fap_take_read(fap_take **take, const void *data, size_t size, const fap_
     const take_driver *driver = sniff(data, size);
     const fap_err err =
         driver ? read_with(driver, &src, cfg, take)
-               : take_fail(&src, FAP_E_UNKNOWN_FORMAT,
-                           "neither C3D, TRC, Nexus CSV, Motive CSV nor a table with NAME_x, NAME_y, "
-                           "NAME_z columns");
+               : take_fail(
+                     &src, FAP_E_UNKNOWN_FORMAT,
+                     "neither C3D, TRC, Nexus CSV, Motive CSV, OpenFace CSV nor a table with NAME_x, NAME_y, "
+                     "NAME_z columns");
     if (err != FAP_OK && where)
         memcpy(where, src.where, sizeof src.where);
     return err;

@@ -194,6 +194,53 @@ TEST(table, names_that_repeat_or_are_too_long_stay_apart)
     fap_take_close(&take);
 }
 
+/* An OpenFace export cut down to three points of 68, pixels beside millimetres. */
+#define OPENFACE_HEAD                                                                                        \
+    "frame, face_id, timestamp, confidence, success, x_8, X_8, X_67, Y_8, Y_67, Z_8, Z_67, AU01_r\n"
+
+TEST(openface, millimetres_in_the_cameras_frame_become_the_heads)
+{
+    fap_take *take = read_ok(OPENFACE_HEAD "1, 0, 0.000, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n"
+                                           "2, 0, 0.033, 0.20, 0, 300, 1, 2, 30, 4, 500, 6, 0\n"
+                                           "3, 0, 0.067, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n"
+                                           "4, 0, 0.100, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n");
+
+    assert_string_equal(take->format, "openface");
+    assert_int_equal(take->point_count, 2);
+    assert_string_equal(take->name[0], "8");
+    assert_sample(take, 0, 0, 1, -30, -500);
+    assert_null(fap_take_sample(take, 1, 0)); /* the tracker does not trust it */
+    assert_float_equal(take->rate_hz, 30, 1e-6);
+    assert_true(take->unit_known);
+    fap_take_close(&take);
+}
+
+TEST(openface, times_of_an_image_sequence_are_no_rate)
+{
+    fap_take *take = read_ok(OPENFACE_HEAD "1, 0, 0.001, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n"
+                                           "2, 0, 0.002, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n");
+
+    assert_float_equal(take->rate_hz, 0, 0);
+    fap_take_close(&take);
+}
+
+TEST(take, coefficients_are_named_for_what_they_are)
+{
+    assert_refused("Timecode,BlendShapeCount,EyeBlinkLeft\n00:00:00:01.0,61,0.5\n", FAP_E_UNSUPPORTED,
+                   "ARKit");
+    assert_refused("frame,confidence,AU01_r\n1,1,0.5\n", FAP_E_UNSUPPORTED, "3D landmarks");
+}
+
+TEST(table, picture_fractions_count_widths_and_heights)
+{
+    fap_take *take =
+        read_ok("frame,image_width,image_height,x_0,y_0,z_0,x_1,y_1,z_1\n1,200,100,0,0,0,0.5,0.5,0.5\n");
+    const float *a = fap_take_sample(take, 0, 0), *b = fap_take_sample(take, 0, 1);
+
+    assert_float_equal((b[1] - a[1]) / (b[0] - a[0]), 0.5, 1e-5);
+    fap_take_close(&take);
+}
+
 TEST(take, what_is_no_take_is_refused)
 {
     assert_refused("", FAP_E_UNKNOWN_FORMAT, "C3D");

@@ -7,8 +7,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static const char *const heads[] = { "Trajectories\n100\n", "Format Version,1.23,Export Frame Rate,120\n",
-                                     "a_x,a_y,a_z,", "" };
+static const char *const heads[] = { "confidence,X_67,Y_67,Z_67,", "Trajectories\n100\n",
+                                     "Format Version,1.23,Export Frame Rate,120\n", "a_x,a_y,a_z,", "" };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     if (!size)
         return 0;
-    const char *head = heads[data[0] % 4];
+    const char *head = heads[data[0] % 5];
     const size_t head_size = strlen(head), total = head_size + size - 1;
     char *text = malloc(total + 1);
     if (!text)
