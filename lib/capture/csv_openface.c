@@ -46,7 +46,7 @@ static int openface_claims(const uint8_t *data, size_t size)
 static void add_points(take_grid *g)
 {
     for (int i = 0; i < POINTS; i++) {
-        char name[3][8];
+        char name[3][16];
         size_t column[3];
         for (int axis = 0; axis < 3; axis++) {
             snprintf(name[axis], sizeof name[axis], "%c_%d", 'X' + axis, i);

@@ -138,8 +138,8 @@ TEST(motive, a_take_without_markers_says_so)
 TEST(table, columns_are_found_by_name_in_any_order_and_style)
 {
     static const char *const texts[] = {
-        "\xef\xbb\xbf"
-        "frame;8.3_x;8.3_y;8.3_z;note\n1;1,5;2;3;a\n2;NA;2;3;b\n",
+        ("\xef\xbb\xbf"
+         "frame;8.3_x;8.3_y;8.3_z;note\n1;1,5;2;3;a\n2;NA;2;3;b\n"),
         "time,8.3.Z,8.3.X,8.3.Y\n0,3,1.5,2\n0.04,3,nan,2\n",
         "# made by hand\n\n8.3 X\t8.3 Y\t8.3 Z\n1.5\t2\t3\n-\t2\t3\n",
     };
