@@ -18,7 +18,7 @@ enum { MAX_INPUT = 1 << 20, MAX_VARIED = 512 };
 /* A copy of exactly @p size bytes, so that a sanitizer sees a read past the end. */
 static void feed(const uint8_t *data, size_t size)
 {
-    uint8_t *copy = malloc(size ? size : 1);
+    uint8_t *copy = calloc(size ? size : 1, 1);
     if (!copy)
         abort();
     memcpy(copy, data, size);
