@@ -101,6 +101,27 @@ static void attribute(gl_functions *gl, GLuint index, int size, GLenum type, GLb
     gl->VertexAttribPointer(index, size, type, normalized, (GLsizei)stride, (const void *)offset);
 }
 
+/*
+ * Teeth shine out of the mouth whatever the closed lips hide of them, but only the front ones: the ends of
+ * the row would light up in the corners of the mouth.
+ */
+static void light_teeth(const fap_mesh *mesh, float *open)
+{
+    const float dark_mm = 15, bright_mm = 5; /* behind the foremost tooth */
+    const float *z = mesh->position + 2 * (size_t)mesh->stride;
+
+    for (int part = FAP_PART_TEETH_UPPER; part <= FAP_PART_TEETH_LOWER; part++) {
+        float front = -1e9f;
+        for (uint32_t i = 0; i < mesh->vertex_count; i++)
+            if (mesh->part[i] == part && z[i] > front)
+                front = z[i];
+        for (uint32_t i = 0; i < mesh->vertex_count; i++)
+            if (mesh->part[i] == part)
+                open[i] =
+                    (0.35f + 0.65f * open[i]) * glm_smoothstep(front - dark_mm, front - bright_mm, z[i]);
+    }
+}
+
 /* Colours, openness and parts never move; positions and normals are sent anew for every picture. */
 static fap_err make_face(renderer *r, GLuint depth_program)
 {
@@ -118,6 +139,7 @@ static fap_err make_face(renderer *r, GLuint depth_program)
     if (still && open)
         err = occlusion_measure(gl, r->bank, r->index_buffer, depth_program, open);
     if (err == FAP_OK) {
+        light_teeth(mesh, open);
         for (uint32_t i = 0; i < mesh->vertex_count; i++) {
             memcpy(still[i].paint, mesh->colour + 4 * (size_t)i, 4);
             still[i].open = (uint8_t)(255 * open[i] + 0.5f);
