@@ -64,7 +64,8 @@ void progress_step(progress *p, int64_t done)
     const int filled = (int)(WIDTH * done / p->total);
     const double left_s = done ? (now - p->started_us) * 1e-6 * (double)(p->total - done) / (double)done : 0;
     fprintf(stderr, "\r%s [%.*s%*s] %3d %%, %.0f s left ", p->label, filled,
-            "########################################", WIDTH - filled, "", (int)(100 * done / p->total), left_s);
+            "########################################", WIDTH - filled, "", (int)(100 * done / p->total),
+            left_s);
 }
 
 void progress_end(progress *p)

@@ -22,8 +22,7 @@ static const char *point_name(int point)
     return info ? info->name : "head";
 }
 
-/* --- a capture, in words
- * -------------------------------------------------------------------------------------------------- */
+/* --- a capture, in words --- */
 
 /* Text in the making, cut at the end of its room. */
 typedef struct line {
@@ -136,8 +135,7 @@ static void say_capture(const options *opt, const run_report *rep)
     say_faps(r);
 }
 
-/* --- a capture, in JSON
- * ------------------------------------------------------------------------------------------------- */
+/* --- a capture, in JSON --- */
 
 static void json_take(json *j, const options *opt, const run_report *rep, const fap_capture_report *r)
 {
@@ -282,9 +280,7 @@ static void json_capture(const options *opt, const run_report *rep)
     putchar('\n');
 }
 
-/* --- a FAP file
- * -------------------------------------------------------------------------------------------------------------
- */
+/* --- a FAP file --- */
 
 static int coded_faps(const stream_summary *s)
 {

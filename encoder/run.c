@@ -26,9 +26,7 @@ static fap_err fail_errno(run_report *rep, fap_err err, const char *path)
     return fail(rep, err, path, err == FAP_E_IO && errno ? strerror(errno) : NULL);
 }
 
-/* --- writing
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- writing --- */
 
 /* Gives frames to a writer. */
 typedef struct frame_source {
@@ -104,9 +102,7 @@ static void sequence_name(const char *path, char *out, size_t room)
         snprintf(out, room, "take");
 }
 
-/* --- commands
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- commands --- */
 
 static fap_err transcode(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {

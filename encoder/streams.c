@@ -8,9 +8,7 @@
 
 #include "encoder/streams.h"
 
-/* --- reading
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- reading --- */
 
 typedef struct memory {
     const uint8_t *at;
@@ -139,9 +137,7 @@ fap_err stream_read(const uint8_t *data, size_t size, stream_summary *s, const f
     return read_text(bytes, s, sink, where);
 }
 
-/* --- writing
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- writing --- */
 
 static fap_err open_bits(stream_writer *w, const fap_encoder_config *cfg)
 {

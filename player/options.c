@@ -15,8 +15,7 @@
 
 enum { DEFAULT_SIZE = 720, DEFAULT_SHEET_SIZE = 320, MAX_RATE_HZ = 1000, MAX_GENERATIONS = 100000 };
 
-/* --- numbers and names
- * --------------------------------------------------------------------------------------- */
+/* --- numbers and names --- */
 
 /* Digits only, so that no sign, blank or hexadecimal slips in; *end is what follows. */
 static int parse_integer(const char *text, int64_t max, int64_t *value, const char **end)
@@ -70,8 +69,7 @@ static int name_index(const char *text, const char *const *names)
     return -1;
 }
 
-/* --- what each option does
- * ------------------------------------------------------------------------------------ */
+/* --- what each option does --- */
 
 static int set_output(play_options *o, const char *text)
 {
@@ -263,8 +261,7 @@ enum {
     CODE_VERSION
 };
 
-/* --- help
- * ---------------------------------------------------------------------------------------------------- */
+/* --- help --- */
 
 static const char help_text[] =
     "usage: fapplay STREAM.fap -o OUT [options]\n"
@@ -315,8 +312,7 @@ static const char help_text[] =
     "  fapplay hello.fap --fps 100 -o points.csv\n"
     "  fapplay hello.fap --bank builtin --size 256x256 --frames 0:3 --golden tests/golden/hello\n";
 
-/* --- parsing
- * ------------------------------------------------------------------------------------------------- */
+/* --- parsing --- */
 
 static void set_defaults(play_options *o)
 {

@@ -31,8 +31,7 @@ typedef struct player {
     void *sink_state;
 } player;
 
-/* --- what goes in
- * -------------------------------------------------------------------------------------------- */
+/* --- what goes in --- */
 
 static void note_deviation(void *user, int64_t line, const char *text)
 {
@@ -97,8 +96,7 @@ static int open_face(player *p)
     return 1;
 }
 
-/* --- which frames
- * -------------------------------------------------------------------------------------------- */
+/* --- which frames --- */
 
 /* The part of --frames that the stream has. */
 static int clip_range(player *p, int64_t *from, int64_t *to)
@@ -130,8 +128,7 @@ static int make_plan(player *p)
     return 1;
 }
 
-/* --- what comes out
- * ------------------------------------------------------------------------------------------ */
+/* --- what comes out --- */
 
 static int open_renderer(player *p)
 {

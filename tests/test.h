@@ -21,13 +21,13 @@ typedef struct test_case {
 
 void test_register(test_case *test);
 
-#define TEST(group, name)                                                                \
-    static void test_##group##_##name(void);                                             \
-    static test_case case_##group##_##name = { #group, #name, test_##group##_##name, 0 }; \
-    __attribute__((constructor)) static void register_##group##_##name(void)             \
-    {                                                                                    \
-        test_register(&case_##group##_##name);                                           \
-    }                                                                                    \
+#define TEST(group, name)                                                                                    \
+    static void test_##group##_##name(void);                                                                 \
+    static test_case case_##group##_##name = { #group, #name, test_##group##_##name, 0 };                    \
+    __attribute__((constructor)) static void register_##group##_##name(void)                                 \
+    {                                                                                                        \
+        test_register(&case_##group##_##name);                                                               \
+    }                                                                                                        \
     static void test_##group##_##name(void)
 
 /*

@@ -20,11 +20,11 @@ typedef struct fap_ascii_writer fap_ascii_writer;
 
 /** The header line; defaults where the file has none. */
 typedef struct fap_ascii_header {
-    char version[8];      /**< "2.1" */
-    char name[128];       /**< sequence name, cut to fit */
-    double rate_hz;       /**< 25 where the file does not say */
-    int64_t frame_count;  /**< as stated; -1: not stated. The frames themselves decide */
-    int present;          /**< 0: the file has no header */
+    char version[8];     /**< "2.1" */
+    char name[128];      /**< sequence name, cut to fit */
+    double rate_hz;      /**< 25 where the file does not say */
+    int64_t frame_count; /**< as stated; -1: not stated. The frames themselves decide */
+    int present;         /**< 0: the file has no header */
 } fap_ascii_header;
 
 /** A tolerated deviation: told once per kind. @p line counts from 1. @p text is static. */
@@ -32,9 +32,9 @@ typedef void (*fap_ascii_notice)(void *user, int64_t line, const char *text);
 
 /** Options; start from fap_ascii_reader_config_init(). */
 typedef struct fap_ascii_reader_config {
-    size_t struct_size;       /**< sizeof of this struct, set by init */
-    int strict;               /**< 0; 1: every deviation is an error */
-    fap_ascii_notice notice;  /**< NULL */
+    size_t struct_size;      /**< sizeof of this struct, set by init */
+    int strict;              /**< 0; 1: every deviation is an error */
+    fap_ascii_notice notice; /**< NULL */
     void *notice_user;
     fap_allocator alloc;
 } fap_ascii_reader_config;
@@ -71,7 +71,8 @@ FAP_API void fap_ascii_reader_close(fap_ascii_reader **reader);
  * @return FAP_OK; FAP_E_ARG; FAP_E_NOMEM; FAP_E_IO. *writer is NULL unless FAP_OK.
  */
 FAP_API FAP_NODISCARD fap_err fap_ascii_writer_open(fap_ascii_writer **writer, const fap_writer *out,
-                                                    const fap_ascii_header *header, const fap_allocator *alloc);
+                                                    const fap_ascii_header *header,
+                                                    const fap_allocator *alloc);
 /**
  * Frames must be as many as the header said; FAPs of state FAP_CODED are written. Frame numbers count from 0; where
  * @c pts_us leaves a gap of whole frames the count does too.

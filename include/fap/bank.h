@@ -22,8 +22,14 @@ typedef struct fap_bank fap_bank;
 
 /** What a vertex belongs to. Parts never share a triangle. */
 typedef enum fap_part {
-    FAP_PART_SKIN, FAP_PART_EYE_LEFT, FAP_PART_EYE_RIGHT, FAP_PART_TEETH_UPPER, FAP_PART_TEETH_LOWER,
-    FAP_PART_TONGUE, FAP_PART_LASHES, FAP_PART_COUNT
+    FAP_PART_SKIN,
+    FAP_PART_EYE_LEFT,
+    FAP_PART_EYE_RIGHT,
+    FAP_PART_TEETH_UPPER,
+    FAP_PART_TEETH_LOWER,
+    FAP_PART_TONGUE,
+    FAP_PART_LASHES,
+    FAP_PART_COUNT
 } fap_part;
 
 /** What a key model is. */
@@ -31,7 +37,7 @@ typedef enum fap_key_kind {
     FAP_KEY_VISEME,     /**< number 1..14 */
     FAP_KEY_EXPRESSION, /**< number 1..6 */
     FAP_KEY_EXTRA,      /**< blink, cheek_puff ...: part of the thesis's population, no number */
-    FAP_KEY_UNIT,       /**< an ARKit-like unit (jawOpen ...): the solver's basis; not part of the population */
+    FAP_KEY_UNIT, /**< an ARKit-like unit (jawOpen ...): the solver's basis; not part of the population */
 } fap_key_kind;
 
 /** Vertices of a key model move in blocks of this many, so that kernels need no tail. */
@@ -43,32 +49,33 @@ typedef enum fap_key_kind {
  */
 typedef struct fap_mesh {
     uint32_t vertex_count, stride, triangle_count;
-    const float *position;      /**< x[stride] y[stride] z[stride], 32-byte aligned */
-    const uint8_t *part;        /**< [stride], a ::fap_part each */
-    const uint8_t *head_weight; /**< [stride], 255: follows FAPs 48 to 50 fully; 0: stays with the shoulders */
-    const uint8_t *colour;      /**< [stride][4], sRGB and a gloss value (0 matt, 255 wet); never NULL */
-    const float *uv;            /**< [stride][2]; NULL where the face has none */
-    const uint32_t *triangle;   /**< [triangle_count][3] */
+    const float *position; /**< x[stride] y[stride] z[stride], 32-byte aligned */
+    const uint8_t *part;   /**< [stride], a ::fap_part each */
+    const uint8_t
+        *head_weight;         /**< [stride], 255: follows FAPs 48 to 50 fully; 0: stays with the shoulders */
+    const uint8_t *colour;    /**< [stride][4], sRGB and a gloss value (0 matt, 255 wet); never NULL */
+    const float *uv;          /**< [stride][2]; NULL where the face has none */
+    const uint32_t *triangle; /**< [triangle_count][3] */
 } fap_mesh;
 
 /** One key model: motion of block b, axis a, lane i = scale_mm * delta[b][a][i], for vertex block[b] * FAP_BLOCK + i. */
 typedef struct fap_key {
-    const char *name;            /**< "PP", "joy", "blink", "jawOpen" */
-    uint8_t kind;                /**< a ::fap_key_kind */
-    uint8_t number;              /**< viseme or expression number, else 0 */
+    const char *name; /**< "PP", "joy", "blink", "jawOpen" */
+    uint8_t kind;     /**< a ::fap_key_kind */
+    uint8_t number;   /**< viseme or expression number, else 0 */
     uint32_t block_count;
     float scale_mm;
-    const uint16_t *block;       /**< [block_count], ascending */
-    const int16_t *delta;        /**< [block_count][3][FAP_BLOCK] */
-    const float (*point_mm)[3];  /**< [FAP_POINT_COUNT]: how far each feature point moves */
+    const uint16_t *block;      /**< [block_count], ascending */
+    const int16_t *delta;       /**< [block_count][3][FAP_BLOCK] */
+    const float (*point_mm)[3]; /**< [FAP_POINT_COUNT]: how far each feature point moves */
 } fap_key;
 
 /** A feature point on this face. */
 typedef struct fap_bank_point {
-    float position_mm[3];    /**< on the neutral face */
-    uint32_t vertex_count;   /**< the point is the mean of these vertices; 0: a fixed place without a vertex */
+    float position_mm[3];  /**< on the neutral face */
+    uint32_t vertex_count; /**< the point is the mean of these vertices; 0: a fixed place without a vertex */
     const uint32_t *vertex;
-    uint8_t present;         /**< 0: this face cannot carry the point */
+    uint8_t present; /**< 0: this face cannot carry the point */
 } fap_bank_point;
 
 /**
@@ -77,7 +84,8 @@ typedef struct fap_bank_point {
  * @return FAP_OK; FAP_E_UNKNOWN_FORMAT not a .fbank; FAP_E_UNSUPPORTED newer version; FAP_E_DATA damaged;
  *         FAP_E_LIMIT too large; FAP_E_NOMEM; FAP_E_IO (callbacks only). @p out is NULL unless FAP_OK.
  */
-FAP_API FAP_NODISCARD fap_err fap_bank_load(fap_bank **out, const void *data, size_t size, const fap_allocator *alloc);
+FAP_API FAP_NODISCARD fap_err fap_bank_load(fap_bank **out, const void *data, size_t size,
+                                            const fap_allocator *alloc);
 FAP_API FAP_NODISCARD fap_err fap_bank_read(fap_bank **out, const fap_reader *in, const fap_allocator *alloc);
 /** The hand-written face that the library always carries: a few hundred vertices, all key models of the default face. */
 FAP_API FAP_NODISCARD fap_err fap_bank_builtin(fap_bank **out, const fap_allocator *alloc);

@@ -19,8 +19,8 @@ typedef struct fap_face fap_face;
 /** How blend weights are found. */
 typedef enum fap_blend {
     FAP_BLEND_ZHU, /**< the thesis's genetic algorithm, to the letter, on visemes, expressions and extra keys */
-    FAP_BLEND_QP,  /**< bounded least squares on the units, per axis; on all keys where a bank has no units */
-    FAP_BLEND_GA,  /**< the GA started from the least-squares solution; never worse than it in millimetres */
+    FAP_BLEND_QP, /**< bounded least squares on the units, per axis; on all keys where a bank has no units */
+    FAP_BLEND_GA, /**< the GA started from the least-squares solution; never worse than it in millimetres */
 } fap_blend;
 
 /** Crossover of the GA; BLX with alpha 0.2. Source: Zhu 2006 eq. 3.4 to 3.6. */
@@ -35,7 +35,7 @@ typedef struct fap_face_config {
     float emphasis;          /**< c of section 3.4.1: targets times c before blending, 0 to 10; 1 */
     uint64_t seed;           /**< 1; equal seeds give equal bits */
     int residual;            /**< 1: put every commanded point exactly where the FAPs say */
-    int blink;               /**< 0; 1: blink by itself while the stream drives no lids (Lin et al. 2001 section 5.2) */
+    int blink; /**< 0; 1: blink by itself while the stream drives no lids (Lin et al. 2001 section 5.2) */
     fap_allocator alloc;
 } fap_face_config;
 
@@ -44,11 +44,12 @@ FAP_API void fap_face_config_init(fap_face_config *cfg);
 
 /** What the last pose did. */
 typedef struct fap_face_stats {
-    float target_error_mm;    /**< RMS over commanded axes before the residual */
-    float residual_error_mm;  /**< the same afterwards */
-    float fitness;            /**< mean cosine of Zhu 2006 eq. 3.2 over the points that move, along commanded axes, before
+    float target_error_mm;   /**< RMS over commanded axes before the residual */
+    float residual_error_mm; /**< the same afterwards */
+    float
+        fitness; /**< mean cosine of Zhu 2006 eq. 3.2 over the points that move, along commanded axes, before
                                    the residual; 1 when none moves */
-    int target_count;         /**< commanded point axes */
+    int target_count; /**< commanded point axes */
 } fap_face_stats;
 
 /**
@@ -56,7 +57,8 @@ typedef struct fap_face_stats {
  * @param cfg   NULL: defaults
  * @return FAP_OK, FAP_E_ARG (bad config), FAP_E_DATA (the bank lacks what posing needs), FAP_E_NOMEM
  */
-FAP_API FAP_NODISCARD fap_err fap_face_open(fap_face **face, const fap_bank *bank, const fap_face_config *cfg);
+FAP_API FAP_NODISCARD fap_err fap_face_open(fap_face **face, const fap_bank *bank,
+                                            const fap_face_config *cfg);
 /** Sets @p *face to NULL; accepts NULL. */
 FAP_API void fap_face_close(fap_face **face);
 /** Floats between the x, y and z rows of position and normal arrays: the mesh's stride. */
@@ -89,8 +91,8 @@ FAP_API void fap_face_last_stats(const fap_face *face, fap_face_stats *out);
  * @param target  displacement from neutral along each axis, millimetres
  * @param wanted  1 where that axis is commanded
  */
-FAP_API void fap_face_targets(const fap_fapu *fapu, const fap_frame *frame, float target_mm[FAP_POINT_COUNT][3],
-                              uint8_t wanted[FAP_POINT_COUNT][3]);
+FAP_API void fap_face_targets(const fap_fapu *fapu, const fap_frame *frame,
+                              float target_mm[FAP_POINT_COUNT][3], uint8_t wanted[FAP_POINT_COUNT][3]);
 
 #ifdef __cplusplus
 }

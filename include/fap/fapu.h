@@ -40,7 +40,8 @@ FAP_API float fap_fapu_step(const fap_fapu *fapu, fap_unit unit);
  */
 FAP_API void fap_head_rotation(int32_t pitch_au, int32_t yaw_au, int32_t roll_au, float rotation[3][3]);
 /** The inverse: angles in AU (1e-5 rad) of a rotation matrix. */
-FAP_API void fap_head_angles(const float rotation[3][3], int32_t *pitch_au, int32_t *yaw_au, int32_t *roll_au);
+FAP_API void fap_head_angles(const float rotation[3][3], int32_t *pitch_au, int32_t *yaw_au,
+                             int32_t *roll_au);
 
 #ifdef __cplusplus
 }

@@ -20,9 +20,9 @@ extern "C" {
 
 /** Where a FAP's value of this frame comes from. */
 typedef enum fap_state {
-    FAP_ABSENT  = 0, /**< never sent: the value is 0 and must not pull on the face */
-    FAP_CODED   = 1, /**< carried by this frame */
-    FAP_HELD    = 2, /**< masked out: the last value sent, kept */
+    FAP_ABSENT = 0,  /**< never sent: the value is 0 and must not pull on the face */
+    FAP_CODED = 1,   /**< carried by this frame */
+    FAP_HELD = 2,    /**< masked out: the last value sent, kept */
     FAP_DERIVED = 3, /**< interpolated from other FAPs by the decoder */
 } fap_state;
 
@@ -42,12 +42,12 @@ typedef struct fap_expression {
 
 /** One instant. */
 typedef struct fap_frame {
-    int64_t number;                 /**< frame number, as counted or written by the stream */
-    int64_t pts_us;                 /**< media time, microseconds since the first frame */
-    uint8_t state[FAP_COUNT + 1];   /**< a ::fap_state each */
-    int32_t value[FAP_COUNT + 1];   /**< in the FAP's own unit (FAPU/1024, or 1e-5 rad); 0 where absent */
-    fap_viseme viseme;              /**< meaningful where state[1] is not FAP_ABSENT; value[1] is unused */
-    fap_expression expression;      /**< meaningful where state[2] is not FAP_ABSENT; value[2] is unused */
+    int64_t number;               /**< frame number, as counted or written by the stream */
+    int64_t pts_us;               /**< media time, microseconds since the first frame */
+    uint8_t state[FAP_COUNT + 1]; /**< a ::fap_state each */
+    int32_t value[FAP_COUNT + 1]; /**< in the FAP's own unit (FAPU/1024, or 1e-5 rad); 0 where absent */
+    fap_viseme viseme;            /**< meaningful where state[1] is not FAP_ABSENT; value[1] is unused */
+    fap_expression expression;    /**< meaningful where state[2] is not FAP_ABSENT; value[2] is unused */
 } fap_frame;
 
 #ifdef __cplusplus

@@ -39,8 +39,7 @@ static int read_config(fap_face_config *cfg, const fap_face_config *from)
            cfg->generations <= MOST_GENERATIONS && cfg->emphasis >= 0 && cfg->emphasis <= 10;
 }
 
-/* --- open and close
- * ---------------------------------------------------------------------------------------------- */
+/* --- open and close --- */
 
 static int unit(const fap_face *face, const char *name)
 {
@@ -238,8 +237,7 @@ size_t fap_face_stride(const fap_face *face)
     return face->mesh->stride;
 }
 
-/* --- pose
- * -------------------------------------------------------------------------------------------------------- */
+/* --- pose --- */
 
 /* Eq. 3.1. Weights of no effect are skipped, so a frame costs what it moves. */
 static void blend(const fap_face *face, const float *weight, float *position)

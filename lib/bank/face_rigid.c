@@ -16,8 +16,7 @@ static const float lid_clearance =
 static const double most_comparisons =
     1e8; /* lashes times skin; a mesh beyond it keeps its lashes where keys put them */
 
-/* --- lists made at open
- * --------------------------------------------------------------------------------------------- */
+/* --- lists made at open --- */
 
 static int list_part(fap_face *face, fap_face_list *list, fap_part part)
 {
@@ -160,9 +159,7 @@ void fap_face_close_parts(fap_face *face)
     }
 }
 
-/* --- eyes
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- eyes --- */
 
 static float value_of(const fap_frame *frame, int fap)
 {
@@ -296,9 +293,7 @@ void fap_face_slide_lids(fap_face *face, const fap_frame *frame, float *position
     }
 }
 
-/* --- mouth
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- mouth --- */
 
 /* M9: upper and lower teeth touch in the neutral face, so lower teeth never rise above it. */
 void fap_face_clamp_teeth(const fap_face *face, float *position)
@@ -333,9 +328,7 @@ void fap_face_curl_tongue(const fap_face *face, const fap_frame *frame, float *p
     }
 }
 
-/* --- head
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- head --- */
 
 typedef struct head {
     int32_t pitch, yaw, roll;

@@ -93,8 +93,7 @@ static float row_target(const fap_face *face, int row)
     return face->target[row / 3][row % 3] - face->fixed_motion[row];
 }
 
-/* --- least squares
- * ---------------------------------------------------------------------------------------------- */
+/* --- least squares --- */
 
 static int has_base(const fap_face *face, int key)
 {
@@ -317,8 +316,7 @@ static void solve_least_squares(fap_face *face)
         face->weight[k->jaw_open] = fminf(weight_max, face->weight[k->jaw_open]);
 }
 
-/* --- the thesis's way
- * --------------------------------------------------------------------------------------------- */
+/* --- the thesis's way --- */
 
 /* 3D targets: what viseme and expression ask of a point, overridden where a FAP speaks; unknown axes are 0.
  */
@@ -421,8 +419,7 @@ static void solve_zhu(fap_face *face)
         face->weight[k] = clampf(gene[k], -most_of_a_key, most_of_a_key);
 }
 
-/* --- the default: the same algorithm, seeded with the exact answer, counting millimetres
- * ------------------------- */
+/* --- the default: the same algorithm, seeded with the exact answer, counting millimetres --- */
 
 /* What the GA compares: rows, where they should go, what a millimetre counts. */
 typedef struct aim {

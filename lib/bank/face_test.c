@@ -119,8 +119,7 @@ static void check_pose_is_sane(const rig *r)
         }
 }
 
-/* --- FAPs reach their points
- * -------------------------------------------------------------------------------------- */
+/* --- FAPs reach their points --- */
 
 static float moved(const rig *r, const fap_info *info)
 {
@@ -215,8 +214,7 @@ TEST(face, targets_are_the_faps_in_millimetres)
     assert_float_equal(target[chin][1], -10, 1e-5);
 }
 
-/* --- what must not happen
- * ----------------------------------------------------------------------------------------- */
+/* --- what must not happen --- */
 
 TEST(face, nothing_commanded_is_the_neutral_face_to_the_bit)
 {
@@ -305,8 +303,7 @@ TEST(face, lids_stay_outside_the_eyeball)
     close_rig(&r);
 }
 
-/* --- methods
- * ------------------------------------------------------------------------------------------------------ */
+/* --- methods --- */
 
 static void check_never_worse(int which, int count)
 {
@@ -461,8 +458,7 @@ TEST(face, weights_move_little_on_the_default_face)
     check_steady(DEFAULT_FACE, FAP_BLEND_GA);
 }
 
-/* --- visemes, expressions, head, eyes, blink
- * ---------------------------------------------------------------------- */
+/* --- visemes, expressions, head, eyes, blink --- */
 
 TEST(face, visemes_and_expressions_show_their_keys)
 {
@@ -635,8 +631,7 @@ TEST(face, shows_key_models_directly)
     close_rig(&r);
 }
 
-/* --- memory and arguments
- * ----------------------------------------------------------------------------------------- */
+/* --- memory and arguments --- */
 
 typedef struct budget {
     int left, live, calls;

@@ -6,8 +6,9 @@
 const char *fap_strerror(fap_err err)
 {
     switch (err) {
-#define X(name, value, text) case name: return text;
-    FAP_ERRORS(X)
+#define X(name, value, text)                                                                                 \
+    case name: return text;
+        FAP_ERRORS(X)
 #undef X
     }
     return "unknown error";

@@ -42,9 +42,7 @@ static void remove_part(double v[3], const double unit[3])
         v[i] -= part * unit[i];
 }
 
-/* --- given
- * ---------------------------------------------------------------------------------------------------------------
- */
+/* --- given --- */
 
 /* "x-zy": one axis of the take, with its sign, for each axis of the head. */
 static int parse_axes(const char *text, double axes[3][3])
@@ -65,9 +63,7 @@ static int parse_axes(const char *text, double axes[3][3])
     return !*text;
 }
 
-/* --- found
- * ---------------------------------------------------------------------------------------------------------------
- */
+/* --- found --- */
 
 /* Mean place of all markers with a role; 0 when there is none. */
 static int role_centre(const performance *p, int role, double out[3])
@@ -272,9 +268,7 @@ static int found(performance *p)
     return 1;
 }
 
-/* --- report
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- report --- */
 
 static void describe(performance *p)
 {

@@ -44,8 +44,7 @@ typedef struct c3d {
     record labels[LABEL_PARTS], outputs[OUTPUT_LISTS]; /* data_size 0: not there */
 } c3d;
 
-/* --- numbers
- * ------------------------------------------------------------------------------------------------------- */
+/* --- numbers --- */
 
 /* Bytes past the end of the file read as 0. */
 static unsigned byte_at(const c3d *c, size_t at)
@@ -82,8 +81,7 @@ static size_t header_word(unsigned n)
     return (n - 1) * 2;
 }
 
-/* --- the parameter chain
- * ------------------------------------------------------------------------------------------- */
+/* --- the parameter chain --- */
 
 /* What the dimensions promise and the file does not hold is cut off, so that rows can be trusted afterwards.
  */
@@ -200,8 +198,7 @@ static double number_of(const c3d *c, const char *name, double otherwise)
     return r.type == 1 ? byte_at(c, offset_of(c, &r)) : otherwise;
 }
 
-/* --- header
- * -------------------------------------------------------------------------------------------------------- */
+/* --- header --- */
 
 static int believable_rate(float hz)
 {
@@ -314,8 +311,7 @@ static fap_err read_header(c3d *c)
     return FAP_OK;
 }
 
-/* --- samples
- * ------------------------------------------------------------------------------------------------------- */
+/* --- samples --- */
 
 static void float_point(const c3d *c, size_t at, fap_take *take, uint32_t frame, uint32_t point)
 {
@@ -350,9 +346,7 @@ static void read_samples(const c3d *c, const uint16_t *column, fap_take *take)
         }
 }
 
-/* --- names
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- names --- */
 
 /* Row @p row of a character array; empty past its end. */
 static text row_of(const record *r, unsigned row)
@@ -411,8 +405,7 @@ static void read_names(const c3d *c, const uint16_t *column, fap_take *take)
     take_finish_names(take);
 }
 
-/* --- the whole
- * ----------------------------------------------------------------------------------------------------- */
+/* --- the whole --- */
 
 static void text_parameter(const c3d *c, const char *name, char *out, size_t room)
 {

@@ -56,8 +56,7 @@ void performance_note(performance *p, const char *fmt, ...)
     va_end(args);
 }
 
-/* --- preparing the take
- * ------------------------------------------------------------------------------------------------ */
+/* --- preparing the take --- */
 
 static fap_err crop(performance *p, const fap_take *take, fap_take **out)
 {
@@ -133,9 +132,7 @@ static void tidy(performance *p)
     fap_take_close(&p->take);
 }
 
-/* --- the chain
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- the chain --- */
 
 static fap_err map_markers(performance *p)
 {

@@ -21,9 +21,7 @@ static size_t at(const fap_take *take, uint32_t frame, uint32_t point)
     return (size_t)frame * take->point_count + point;
 }
 
-/* --- spikes
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- spikes --- */
 
 static void sort(float *v, int n)
 {
@@ -119,9 +117,7 @@ static uint32_t drop_spikes(fap_take *take, uint32_t point, float least_mm)
     return spikes;
 }
 
-/* --- gaps
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- gaps --- */
 
 /* Slope per frame on the outer side of a gap, from the sample one step further out where there is one. */
 static float slope(const fap_take *take, uint32_t edge, int step, uint32_t point, int axis)

@@ -129,9 +129,7 @@ static void extract_fap(performance *p, int fap)
     }
 }
 
-/* --- head
- * ------------------------------------------------------------------------------------------------------------------
- */
+/* --- head --- */
 
 /* The rotation from rest, in head axes: A R rest^T A^T. */
 static void head_rotation(const performance *p, uint32_t frame, float out[3][3])
@@ -174,9 +172,7 @@ static void extract_head(performance *p)
     }
 }
 
-/* --- the account
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- the account --- */
 
 /* The table's range counts quantiser steps. Where it prints no lower limit, decoders take the upper one with
  * a minus. */

@@ -62,8 +62,7 @@ static text short_name(const char *name)
     return (text){ start, strlen(start) };
 }
 
-/* --- giving roles
- * -------------------------------------------------------------------------------------------------- */
+/* --- giving roles --- */
 
 static void add_source(fap_marker_source *s, uint32_t point, int near)
 {
@@ -84,8 +83,7 @@ static void give_role(fap_markers *map, uint32_t point, int kind, int feature_po
         add_source(&map->point[feature_point], point, kind == KIND_NEAR);
 }
 
-/* --- names that are feature points
- * ----------------------------------------------------------------------------------- */
+/* --- names that are feature points --- */
 
 /* "8.4", "FP8.4", "P 8.4", "FDP8.4"; -1 for anything else. */
 static int direct_point(text name)
@@ -111,8 +109,7 @@ static void map_direct(fap_markers *map, const fap_take *take)
     }
 }
 
-/* --- the user's table
- * ------------------------------------------------------------------------------------------------ */
+/* --- the user's table --- */
 
 static int parse_role(text t, int *kind, int *feature_point)
 {
@@ -183,8 +180,7 @@ static fap_err map_user(fap_markers *map, const fap_take *take, const char *csv,
     return FAP_OK;
 }
 
-/* --- the built-in sets
- * ------------------------------------------------------------------------------------------------ */
+/* --- the built-in sets --- */
 
 static int row_hits(const struct marker_row *row, const fap_take *take, uint32_t point)
 {
@@ -235,8 +231,7 @@ static void map_built_in(fap_markers *map, const fap_take *take)
     }
 }
 
-/* --- the whole
- * -------------------------------------------------------------------------------------------------------- */
+/* --- the whole --- */
 
 static fap_err nothing_known(char *where, const fap_take *take)
 {

@@ -49,8 +49,7 @@ static double quantile(const double *v, uint32_t n, double share, double *scratc
     return scratch[(uint32_t)(share * (used - 1))];
 }
 
-/* --- what is measured in each frame
- * ------------------------------------------------------------------------------------ */
+/* --- what is measured in each frame --- */
 
 /* Root mean square over the face's markers of how far they move from one frame to another, mm. */
 static double change(const performance *p, uint32_t a, uint32_t b)
@@ -156,9 +155,7 @@ static void measure(const performance *p, moments *m)
     }
 }
 
-/* --- the choice
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- the choice --- */
 
 /* Each part is 1 at what is usual in this take; a mouth open by 2 mm more than its closed state counts like
  * that. */

@@ -14,9 +14,7 @@ static void to_head(const performance *p, const double v[3], float out[3])
         out[row] = (float)(p->axes[row][0] * v[0] + p->axes[row][1] * v[1] + p->axes[row][2] * v[2]);
 }
 
-/* --- rings
- * ---------------------------------------------------------------------------------------------------------------
- */
+/* --- rings --- */
 
 static void assign(performance *p, const char *name, int marker)
 {
@@ -96,8 +94,7 @@ void rings_assign(performance *p)
     assign_brow(p, FAP_MARKER_BROW_RIGHT, -1, "4.2", "4.4", "4.6");
 }
 
-/* --- feature points
- * ------------------------------------------------------------------------------------------------------ */
+/* --- feature points --- */
 
 /* Each marker's own displacement from rest, so that a hidden one of several does not make the mean jump. */
 static int mean_displacement(const performance *p, uint32_t frame, const fap_marker_source *s, double out[3])
@@ -140,9 +137,7 @@ void points_place(performance *p)
         place_point(p, i);
 }
 
-/* --- long gaps
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- long gaps --- */
 
 /* Slow at both ends, so that neither end shows. */
 static void ease_gap(performance *p, int i, uint32_t before, uint32_t after)

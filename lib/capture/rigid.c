@@ -7,8 +7,7 @@
 
 enum { MAX_EIGEN = 4, MAX_SWEEPS = 32, FRAMES_LOOKED_AT = 200 };
 
-/* --- eigenvectors of small symmetric matrices: cyclic Jacobi
- * ---------------------------------------------------------- */
+/* --- eigenvectors of small symmetric matrices: cyclic Jacobi --- */
 
 static void rotate(double a[MAX_EIGEN][MAX_EIGEN], double v[MAX_EIGEN][MAX_EIGEN], int n, int p, int q)
 {
@@ -44,9 +43,7 @@ static void diagonalise(double a[MAX_EIGEN][MAX_EIGEN], double v[MAX_EIGEN][MAX_
                 rotate(a, v, n, p, q);
 }
 
-/* --- the fit
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- the fit --- */
 
 static void centroid(const double (*p)[3], const double *weight, uint32_t n, double out[3])
 {
@@ -161,9 +158,7 @@ void rigid_undo(const rigid_pose *pose, const double seen[3], double model[3])
         model[i] = pose->r[0][i] * d[0] + pose->r[1][i] * d[1] + pose->r[2][i] * d[2];
 }
 
-/* --- the body
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- the body --- */
 
 static void to_double(const float v[3], double out[3])
 {
@@ -315,9 +310,7 @@ void rigid_body_extend(rigid_body *body, const fap_take *take, const uint16_t *c
         added = relearn(body, take);
 }
 
-/* --- finding
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- finding --- */
 
 /* How much the distance of two points varies; INFINITY where they are rarely seen together or too close to
  * matter. */

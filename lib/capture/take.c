@@ -141,8 +141,7 @@ double fap_take_unit_mm(const char *unit)
     return 0;
 }
 
-/* --- helpers of the drivers
- * ---------------------------------------------------------------------------------------- */
+/* --- helpers of the drivers --- */
 
 fap_err take_fail(take_source *src, fap_err err, const char *fmt, ...)
 {
@@ -268,8 +267,7 @@ void take_drop_zeros(fap_take *take)
         take_note(take, "%u samples are exactly 0,0,0 and count as missing", (unsigned)dropped);
 }
 
-/* --- reading
- * ------------------------------------------------------------------------------------------------------- */
+/* --- reading --- */
 
 static const take_driver *sniff(const uint8_t *data, size_t size)
 {

@@ -73,7 +73,7 @@ TEST(bits, a_full_writer_stops)
     assert_int_equal(data[0], 0xFF);
 }
 
-/* --- models against a table of all counts ----------------------------------------------------- */
+/* --- models against a table of all counts --- */
 
 enum { SYMBOLS = 300 };
 
@@ -137,7 +137,7 @@ TEST(models, say_when_their_memory_is_used_up)
     assert_int_equal(fap_model_count(&pool, &m, 10, 6), 1);
 }
 
-/* --- coder ------------------------------------------------------------------------------------ */
+/* --- coder --- */
 
 enum { MAX_RUN = 80 };
 

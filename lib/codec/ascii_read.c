@@ -83,7 +83,7 @@ fap_err fap_ascii_next_line(fap_ascii_reader *r)
     }
 }
 
-/* --- frames ----------------------------------------------------------------------------------- */
+/* --- frames --- */
 
 /* Only the second frame of a file without header tells frame numbers from times. */
 static void recognise_ms(fap_ascii_reader *r, int64_t number)
@@ -167,7 +167,7 @@ fap_err fap_ascii_reader_next(fap_ascii_reader *r, fap_frame *out)
     return err;
 }
 
-/* --- life ------------------------------------------------------------------------------------- */
+/* --- life --- */
 
 void fap_ascii_reader_config_init(fap_ascii_reader_config *cfg)
 {

@@ -9,7 +9,7 @@
 #include <fap/ascii.h>
 #include <fap/tables.h>
 
-/* --- memory as source and sink, and texts made of masks --------------------------------------- */
+/* --- memory as source and sink, and texts made of masks --- */
 
 typedef struct memory {
     char *data;
@@ -175,7 +175,7 @@ static fap_err error_of_one(const char *mask_line, const char *values, const cha
     return err;
 }
 
-/* --- the regular format ----------------------------------------------------------------------- */
+/* --- the regular format --- */
 
 TEST(ascii, reads_header_and_values)
 {
@@ -255,7 +255,7 @@ TEST(ascii, values_reach_the_ends_of_32_bits)
     assert_int_equal(error_of_one(MASK(3), "0 99999999999999999999", "column 3"), FAP_E_SYNTAX);
 }
 
-/* --- dialects --------------------------------------------------------------------------------- */
+/* --- dialects --- */
 
 TEST(ascii, line_ends_tabs_and_blanks_do_not_matter)
 {
@@ -480,7 +480,7 @@ TEST(ascii, each_deviation_is_told_once_and_is_fatal_when_strict)
     assert_int_equal(last, FAP_E_SYNTAX);
 }
 
-/* --- damage ----------------------------------------------------------------------------------- */
+/* --- damage --- */
 
 TEST(ascii, says_line_column_and_what_was_expected)
 {
@@ -596,7 +596,7 @@ TEST(ascii, failing_sources_sinks_and_allocators_are_told)
     assert_null(writer);
 }
 
-/* --- the writer ------------------------------------------------------------------------------- */
+/* --- the writer --- */
 
 static fap_ascii_writer *write_to(memory *m, const char *name, double rate_hz, int64_t count)
 {
@@ -702,7 +702,7 @@ TEST(ascii, what_was_written_reads_back_exactly)
     free(m.data);
 }
 
-/* --- real files ------------------------------------------------------------------------------- */
+/* --- real files --- */
 
 static size_t stdio_read(void *user, void *buf, size_t size)
 {

@@ -8,7 +8,7 @@
 #include "codec/ascii_reader.h"
 #include "param/frame.h"
 
-/* --- mask line -------------------------------------------------------------------------------- */
+/* --- mask line --- */
 
 /* One digit and what separates it from the next; NULL where there is none. */
 static const char *mask_digit(fap_ascii_reader *r, const char *p, int *digit)
@@ -88,7 +88,7 @@ fap_err fap_ascii_read_mask(fap_ascii_reader *r)
     return r->err;
 }
 
-/* --- value line ------------------------------------------------------------------------------- */
+/* --- value line --- */
 
 /* The number is none of the plain ones: decimals, inf, a sign, a word that does not belong here. */
 static const char *parse_odd(fap_ascii_reader *r, const char *p)

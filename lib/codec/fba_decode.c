@@ -104,7 +104,7 @@ static fap_err note(fap_decoder *d, deviation which)
     return FAP_OK;
 }
 
-/* --- plane header ----------------------------------------------------------------------------- */
+/* --- plane header --- */
 
 static void read_frame_rate(fap_bits *b, fba_time_fields *t)
 {
@@ -158,7 +158,7 @@ static fap_err read_header(fap_decoder *d, plane_header *h)
     return check_bits(d, "plane header");
 }
 
-/* --- planes ----------------------------------------------------------------------------------- */
+/* --- planes --- */
 
 static fap_err read_face(fap_decoder *d, fba_face *copy, int intra)
 {
@@ -301,7 +301,7 @@ static fap_err read_plane(fap_decoder *d, uint64_t start)
     return FAP_OK;
 }
 
-/* --- start codes ------------------------------------------------------------------------------ */
+/* --- start codes --- */
 
 static void begin_object(fap_decoder *d)
 {
@@ -409,7 +409,7 @@ fap_err fap_decoder_receive(fap_decoder *d, fap_frame *out)
     return err;
 }
 
-/* --- life ------------------------------------------------------------------------------------- */
+/* --- life --- */
 
 void fap_decoder_config_init(fap_decoder_config *cfg)
 {

@@ -51,7 +51,7 @@ struct fap_encoder {
     fap_encoder_stats stats;
 };
 
-/* --- frames in -------------------------------------------------------------------------------- */
+/* --- frames in --- */
 
 /* The frame number nearest to the frame's time, always above the one before. */
 static int64_t place(const fap_encoder *e, const fap_frame *f)
@@ -95,7 +95,7 @@ void fap_encoder_flush(fap_encoder *e)
     e->flushed = e->ready = 1;
 }
 
-/* --- quantising ------------------------------------------------------------------------------- */
+/* --- quantising --- */
 
 static int32_t wanted(const fap_frame *f, int param)
 {
@@ -214,7 +214,7 @@ static void choose_masks(fap_encoder *e)
     }
 }
 
-/* --- writing ---------------------------------------------------------------------------------- */
+/* --- writing --- */
 
 static void put_code(fap_bit_writer *w, int code)
 {
@@ -417,7 +417,7 @@ size_t fap_encoder_bound(const fap_encoder *e)
     return GROUP_BYTES + (size_t)e->cfg.intra * PLANE_BYTES;
 }
 
-/* --- life ------------------------------------------------------------------------------------- */
+/* --- life --- */
 
 void fap_encoder_config_init(fap_encoder_config *cfg)
 {

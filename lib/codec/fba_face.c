@@ -28,7 +28,7 @@ static fap_err check_bits(fba_face_reader *r, const char *what)
     return fail(r, FAP_E_BITSTREAM, r->bits->bad_at, what, fap_bits_why(r->bits));
 }
 
-/* --- masks and ranges ------------------------------------------------------------------------- */
+/* --- masks and ranges --- */
 
 static void read_group_mask(fap_bits *b, int group, fba_setup *s)
 {
@@ -101,7 +101,7 @@ static fap_err read_setup(fba_face_reader *r, fba_face *p)
     return check_bits(r, "symbol ranges");
 }
 
-/* --- values ----------------------------------------------------------------------------------- */
+/* --- values --- */
 
 static void add_value(fba_face *p, int param, int32_t level, int intra)
 {
@@ -199,7 +199,7 @@ fap_err fap_fba_face_read(fba_face_reader *r, fba_face *face, int intra)
     return read_params(r, face, intra);
 }
 
-/* --- frames ----------------------------------------------------------------------------------- */
+/* --- frames --- */
 
 static uint8_t clamp_strength(int32_t v)
 {

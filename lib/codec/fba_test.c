@@ -13,7 +13,7 @@
 #include "codec/fba.h"
 #include "codec/models.h"
 
-/* --- writing streams -------------------------------------------------------------------------- */
+/* --- writing streams --- */
 
 typedef struct stream {
     uint8_t data[4096];
@@ -107,7 +107,7 @@ static void predicted_pitch(stream *s, int difference)
     flat_run(s, (const int[][2]){ { difference + 600, 1201 } }, 1);
 }
 
-/* --- reading ---------------------------------------------------------------------------------- */
+/* --- reading --- */
 
 static void count_notice(void *user, int64_t bit, const char *text)
 {
@@ -388,7 +388,7 @@ TEST(fba, another_default_range_can_be_asked_for)
     ends(d);
 }
 
-/* --- what is passed over ---------------------------------------------------------------------- */
+/* --- what is passed over --- */
 
 static void segment_plane(stream *s)
 {
@@ -495,7 +495,7 @@ TEST(fba, headers_of_a_visual_sequence_are_passed_over)
     ends(d);
 }
 
-/* --- units, damage, resources ----------------------------------------------------------------- */
+/* --- units, damage, resources --- */
 
 TEST(fba, units_are_taken_one_at_a_time)
 {
@@ -644,7 +644,7 @@ TEST(fba, symbols_beyond_the_memory_are_an_error_not_a_guess)
     ends(d);
 }
 
-/* --- encoder and decoder ---------------------------------------------------------------------- */
+/* --- encoder and decoder --- */
 
 static uint32_t draw(uint32_t *state)
 {
@@ -861,7 +861,7 @@ TEST(fba, no_damage_does_harm)
     }
 }
 
-/* --- real files ------------------------------------------------------------------------------- */
+/* --- real files --- */
 
 static size_t stdio_read(void *user, void *buf, size_t size)
 {
@@ -923,7 +923,7 @@ TEST(fba, a_talking_head_takes_a_few_kilobits_a_second)
     assert_in_range(real_round_trip("metaface_th-example-plain.fap", 1), 1000, 10500);
 }
 
-/* --- streams of another encoder --------------------------------------------------------------- */
+/* --- streams of another encoder --- */
 
 /* A frame as tests/conformance/fba/reference.py words it: number, V and E with their parameters, FAP:value.
  */

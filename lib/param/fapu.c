@@ -14,7 +14,8 @@ static const float radians_per_au = 1e-5f;
 /* IRISD may be measured on either eye; the mean serves faces that are not quite symmetric. */
 static float iris_diameter(const float points[FAP_POINT_COUNT][3])
 {
-    const int lids[4] = { fap_point_index(3, 1), fap_point_index(3, 3), fap_point_index(3, 2), fap_point_index(3, 4) };
+    const int lids[4] = { fap_point_index(3, 1), fap_point_index(3, 3), fap_point_index(3, 2),
+                          fap_point_index(3, 4) };
 
     return 0.5f * (points[lids[0]][1] - points[lids[1]][1] + points[lids[2]][1] - points[lids[3]][1]);
 }

@@ -26,21 +26,34 @@ enum {
 #define X(point, group, index, moved, mirror, description) point,
     POINTS_ROWS(X)
 #undef X
-    POINT_END
+        POINT_END
 };
 _Static_assert(POINT_END == FAP_POINT_COUNT, "points.csv has not 84 rows");
 
 static const fap_point_info points[FAP_POINT_COUNT] = {
-#define X(point, group, index, moved, mirror, description) \
+#define X(point, group, index, moved, mirror, description)                                                   \
     [point] = { #group "." #index, description, group, index, moved, mirror },
     POINTS_ROWS(X)
 #undef X
 };
 
 static const fap_info faps[FAP_COUNT + 1] = {
-#define X(fap, name, description, unit, motion, sign, bidirectional, point, point2, group, step, imin, imax, pmin, pmax) \
-    [fap] = { name,  description, FAP_UNIT_##unit, FAP_MOTION_##motion, sign, bidirectional, point, point2, \
-              group, step,        imin,            imax,                pmin, pmax },
+#define X(fap, name, description, unit, motion, sign, bidirectional, point, point2, group, step, imin, imax, \
+          pmin, pmax)                                                                                        \
+    [fap] = { name,                                                                                          \
+              description,                                                                                   \
+              FAP_UNIT_##unit,                                                                               \
+              FAP_MOTION_##motion,                                                                           \
+              sign,                                                                                          \
+              bidirectional,                                                                                 \
+              point,                                                                                         \
+              point2,                                                                                        \
+              group,                                                                                         \
+              step,                                                                                          \
+              imin,                                                                                          \
+              imax,                                                                                          \
+              pmin,                                                                                          \
+              pmax },
     FAPS_ROWS(X)
 #undef X
 };

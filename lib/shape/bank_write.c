@@ -39,8 +39,7 @@ struct fap_bank_builder {
     build_key *key; /* FBANK_MAX_KEYS, of which key_count are used */
 };
 
-/* --- collecting
- * ---------------------------------------------------------------------------------------------------- */
+/* --- collecting --- */
 
 static void *copy_of(const void *data, size_t count, size_t size)
 {
@@ -226,9 +225,7 @@ fap_err fap_bank_builder_models(fap_bank_builder *b)
     return err;
 }
 
-/* --- order
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- order --- */
 
 /*
  * Which keys move a vertex, as bits, decides its place: vertices that move together share blocks, the rest of
@@ -289,8 +286,7 @@ static int sort_vertices(const fap_bank_builder *b, uint32_t *order, uint32_t *p
     return 1;
 }
 
-/* --- chunks
- * -------------------------------------------------------------------------------------------------------- */
+/* --- chunks --- */
 
 enum chunk_id {
     C_NAME,

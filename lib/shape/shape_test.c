@@ -109,9 +109,7 @@ TEST(target, refuses_bad_lines)
     assert_int_equal(fap_target_add("x 1 1 1\n", 1, d, 3, &line), FAP_E_SYNTAX);
 }
 
-/* --- zip
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- zip --- */
 
 static const uint8_t hello_deflated[] = {
     0xcb, 0x48, 0xcd, 0xc9, 0xc9, 0x07, 0x00
@@ -256,8 +254,7 @@ TEST(gunzip, refuses_what_is_cut_or_too_large)
 }
 #endif
 
-/* --- subdivision
- * --------------------------------------------------------------------------------------------------- */
+/* --- subdivision --- */
 
 static const uint32_t cube_start[] = { 0, 4, 8, 12, 16, 20, 24 };
 static const uint32_t cube[] = { 0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3 };

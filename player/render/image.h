@@ -24,8 +24,8 @@ fap_err image_read_png(image *im, const char *path);
 
 /* How far two pictures of one size are apart. */
 typedef struct image_difference {
-    int worst;           /* largest difference of any channel */
-    size_t far_count;    /* pixels with a channel further apart than the tolerance */
+    int worst;        /* largest difference of any channel */
+    size_t far_count; /* pixels with a channel further apart than the tolerance */
     size_t pixel_count;
 } image_difference;
 

@@ -12,7 +12,13 @@
 
 typedef struct renderer renderer;
 
-typedef enum render_camera { CAMERA_FRONT, CAMERA_LEFT, CAMERA_RIGHT, CAMERA_THREE_QUARTER, CAMERA_COUNT } render_camera;
+typedef enum render_camera {
+    CAMERA_FRONT,
+    CAMERA_LEFT,
+    CAMERA_RIGHT,
+    CAMERA_THREE_QUARTER,
+    CAMERA_COUNT
+} render_camera;
 
 /* "front", "left", "right", "three-quarter"; -1: no such camera. */
 int render_camera_by_name(const char *name);
@@ -32,7 +38,8 @@ void renderer_destroy(renderer **r);
  * Draws a pose (arrays as fap_face_pose() gives them) and reads it back.
  * @out  an image of the renderer's size; see image_create()
  */
-fap_err renderer_draw(renderer *r, const float *position, const float *normal, render_camera camera, image *out);
+fap_err renderer_draw(renderer *r, const float *position, const float *normal, render_camera camera,
+                      image *out);
 
 /* GL_RENDERER and GL_VERSION of the context, for reports: pictures differ by these. */
 const char *renderer_description(const renderer *r);

@@ -62,7 +62,8 @@ TEST(renderer, same_pose_gives_same_bits_and_another_pose_another_picture)
     image_difference d;
 
     open_stage(&s);
-    image a = picture(&s, 0, CAMERA_FRONT), b = picture(&s, 600, CAMERA_FRONT), c = picture(&s, 0, CAMERA_FRONT);
+    image a = picture(&s, 0, CAMERA_FRONT), b = picture(&s, 600, CAMERA_FRONT),
+          c = picture(&s, 0, CAMERA_FRONT);
     assert_memory_equal(a.rgba, c.rgba, SIZE * SIZE * 4);
     assert_int_equal(image_compare(&a, &b, 2, &d, NULL), FAP_OK);
     assert_false(image_same(&d));

@@ -13,9 +13,8 @@ static const char depth_vertex_source[] =
     "uniform mat4 view_projection;\n"
     "void main() { gl_Position = view_projection * vec4(position, 1); }\n";
 
-static const char depth_fragment_source[] =
-    "#version 330 core\n"
-    "void main() {}\n";
+static const char depth_fragment_source[] = "#version 330 core\n"
+                                            "void main() {}\n";
 
 /* One triangle over the whole picture; no vertex buffer. */
 static const char background_vertex_source[] =
@@ -27,23 +26,21 @@ static const char background_vertex_source[] =
     "}\n";
 
 /* The studio behind the face; @at runs from -1 to 1 over the picture. */
-#define STUDIO                                                                           \
-    "vec3 studio(vec2 at) {\n"                                                           \
-    "    vec2 d = at - vec2(-0.1, 0.15);\n"                                              \
-    "    return mix(vec3(0.36, 0.40, 0.45), vec3(0.73, 0.76, 0.79), exp(-0.9 * dot(d, d)));\n" \
+#define STUDIO                                                                                               \
+    "vec3 studio(vec2 at) {\n"                                                                               \
+    "    vec2 d = at - vec2(-0.1, 0.15);\n"                                                                  \
+    "    return mix(vec3(0.36, 0.40, 0.45), vec3(0.73, 0.76, 0.79), exp(-0.9 * dot(d, d)));\n"               \
     "}\n"
 
-static const char background_fragment_source[] =
-    "#version 330 core\n" STUDIO
-    "in vec2 at;\n"
-    "out vec4 colour;\n"
-    "void main() { colour = vec4(studio(at), 1); }\n";
+static const char background_fragment_source[] = "#version 330 core\n" STUDIO "in vec2 at;\n"
+                                                 "out vec4 colour;\n"
+                                                 "void main() { colour = vec4(studio(at), 1); }\n";
 
 static const char face_vertex_source[] =
     "#version 330 core\n"
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
-    "layout(location = 2) in vec4 paint;\n"  /* sRGB and gloss */
+    "layout(location = 2) in vec4 paint;\n"   /* sRGB and gloss */
     "layout(location = 3) in vec3 surface;\n" /* openness to the sky, part, head weight; bytes */
     "uniform mat4 view_projection;\n"
     "out vec3 place, facing;\n"
@@ -63,8 +60,7 @@ static const char face_vertex_source[] =
     "}\n";
 
 static const char face_fragment_source[] =
-    "#version 330 core\n" STUDIO
-    "in vec3 place, facing;\n"
+    "#version 330 core\n" STUDIO "in vec3 place, facing;\n"
     "in vec4 tint;\n"
     "in float sky_seen, head;\n"
     "in vec3 on_screen;\n"
@@ -91,9 +87,12 @@ static const char face_fragment_source[] =
     "    if (dot(n, view) < 0 && !gl_FrontFacing) n = -n;\n"
     "    float gloss = tint.a, open_sky = sky_seen;\n"
     "    vec3 wrap = is_skin ? vec3(0.42, 0.20, 0.13) : vec3(0.12);\n"
-    "    /* What the sky cannot reach, the lamps reach less too; deep places turn red, not black, on skin. */\n"
-    "    vec3 shade = mix(vec3(open_sky), pow(vec3(open_sky), vec3(0.62, 0.95, 1.05)), is_skin ? 1.0 : 0.0);\n"
-    "    vec3 lamp = mix(vec3(is_teeth ? 0.02 : 0.25), vec3(1), smoothstep(0.0, 0.62, open_sky)) * mix(shade, vec3(1), 0.35);\n"
+    "    /* What the sky cannot reach, the lamps reach less too; deep places turn red, not black, on skin. "
+    "*/\n"
+    "    vec3 shade = mix(vec3(open_sky), pow(vec3(open_sky), vec3(0.62, 0.95, 1.05)), is_skin ? 1.0 : "
+    "0.0);\n"
+    "    vec3 lamp = mix(vec3(is_teeth ? 0.02 : 0.25), vec3(1), smoothstep(0.0, 0.62, open_sky)) * "
+    "mix(shade, vec3(1), 0.35);\n"
     "    vec3 light = mix(ground, sky, 0.5 + 0.5 * n.y) * shade;\n"
     "    light += (diffuse(n, key_from, key_light, wrap) + diffuse(n, fill_from, fill_light, wrap)) * lamp;\n"
     "    light += diffuse(n, rim_from, rim_light, vec3(0.05)) * shade * 0.55;\n"
@@ -105,7 +104,8 @@ static const char face_fragment_source[] =
     "        c += key_seen * (1.3 * shine(n, key_from, view, 420) + 0.05 * shine(n, key_from, view, 40));\n"
     "        c += fill_light * lamp * 0.35 * shine(n, fill_from, view, 160);\n"
     "    } else {\n"
-    "        float broad = shine(n, key_from, view, 14), sharp = shine(n, key_from, view, mix(38, 110, gloss));\n"
+    "        float broad = shine(n, key_from, view, 14), sharp = shine(n, key_from, view, mix(38, 110, "
+    "gloss));\n"
     "        c += key_seen * (0.030 * broad + mix(0.045, 0.38, gloss * gloss) * sharp);\n"
     "        c += fill_light * lamp * 0.05 * shine(n, fill_from, view, 22);\n"
     "        c += sky * shade * grazing * (is_teeth ? 0.1 : 0.16);\n"

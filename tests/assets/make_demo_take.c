@@ -26,8 +26,7 @@ static const char sentence[] =
 enum { RATE_HZ = 120, MAX_SEGMENTS = 256, MAX_KEYS = 256 };
 static const double lead_s = 0.6, tail_s = 0.9, pi = 3.14159265358979;
 
-/* --- the rig
- * ------------------------------------------------------------------------------------------------------- */
+/* --- the rig --- */
 
 /* A lid marker is a dot of paint on the lid's edge; the others are 3 mm balls. Names are those of a studio,
  * not ours. */
@@ -52,8 +51,7 @@ static const struct marker {
 enum { MARKERS = sizeof rig / sizeof *rig };
 _Static_assert(MARKERS == 56, "the rig has 56 markers");
 
-/* --- speech
- * -------------------------------------------------------------------------------------------------------- */
+/* --- speech --- */
 
 typedef struct segment {
     int viseme;
@@ -150,8 +148,7 @@ static int speak(const char *wav_path)
     return sf_close(spoken.out) == 0;
 }
 
-/* --- acting
- * -------------------------------------------------------------------------------------------------------- */
+/* --- acting --- */
 
 /* A smooth bump of height 1 between two times. */
 static double bump(double t, double from, double to)
@@ -235,8 +232,7 @@ static void head_pose(double t, float rotation[3][3], double sway_mm[3])
     sway_mm[2] = on * 5 * sin(2 * pi * 0.13 * t + 2);
 }
 
-/* --- what the cameras saw
- * ------------------------------------------------------------------------------------------ */
+/* --- what the cameras saw --- */
 
 static double uniform(uint64_t *state)
 {

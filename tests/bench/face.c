@@ -115,8 +115,7 @@ double bench_face_normals_us(void)
     return without < 0 || with < 0 ? -1 : with - without;
 }
 
-/* --- Zhu 2006, table 3.1
- * ------------------------------------------------------------------------------------------- */
+/* --- Zhu 2006, table 3.1 --- */
 
 static uint32_t next(uint32_t *seed)
 {

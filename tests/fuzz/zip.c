@@ -13,7 +13,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     size_t out_size;
     fap_zip zip;
 
-    if (fap_zip_open(&zip, data, size) == FAP_OK && fap_zip_extract(&zip, "a", 1 << 20, &out, &out_size) == FAP_OK)
+    if (fap_zip_open(&zip, data, size) == FAP_OK &&
+        fap_zip_extract(&zip, "a", 1 << 20, &out, &out_size) == FAP_OK)
         free(out);
     if (fap_gunzip(data, size, 1 << 20, &out, &out_size) == FAP_OK)
         free(out);
