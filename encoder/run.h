@@ -6,7 +6,7 @@
 #include <fap/studio/capture.h>
 
 #include "encoder/options.h"
-#include "encoder/streams.h"
+#include "common/streams.h"
 
 /* Everything that report.c needs; parts that do not apply are empty. */
 typedef struct run_report {

@@ -264,8 +264,9 @@ enum {
 /* --- help --- */
 
 static const char help_text[] =
-    "usage: fapplay STREAM.fap -o OUT [options]\n"
-    "Shows a stream of MPEG-4 face animation parameters on a face. STREAM may be - for standard input.\n"
+    "usage: fapplay STREAM -o OUT [options]\n"
+    "Shows a stream of MPEG-4 face animation parameters on a face. STREAM is .fap or .fba, or - for standard "
+    "input.\n"
     "\n"
     "Where to (-o, --output OUT):\n"
     "  NAME.png                 one picture: frame A of --frames, else the middle one\n"
@@ -377,7 +378,7 @@ static int take_options(play_options *o, int argc, char **argv)
 static int take_stream(play_options *o, int argc, char **argv)
 {
     if (optind >= argc)
-        return refuse("no stream:", "fapplay STREAM.fap -o OUT");
+        return refuse("no stream:", "fapplay STREAM -o OUT");
     if (optind + 1 < argc)
         return refuse("one stream only, not also", argv[optind + 1]);
     o->stream = argv[optind];

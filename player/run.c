@@ -33,27 +33,38 @@ typedef struct player {
 
 /* --- what goes in --- */
 
-static void note_deviation(void *user, int64_t line, const char *text)
+static const size_t max_stream = (size_t)1 << 30;
+
+/* Lines of a .fap, bits of an .fba; and planes that were lost. */
+static void note_deviations(player *p, const stream_summary *s, const char *where)
 {
-    player *p = user;
-    play_report_note(p->report, "%s: line %" PRId64 ": %s", p->opt->stream, line, text);
+    const char *const place = strcmp(s->format, "fba") ? "line" : "bit";
+
+    for (int i = 0; i < s->notice_count; i++)
+        play_report_note(p->report, "%s: %s %" PRId64 ": %s", p->opt->stream, place, s->notice[i].where,
+                         s->notice[i].text);
+    if (s->broken_planes)
+        play_report_note(p->report, "%s: %" PRIu64 " planes are broken: %s", p->opt->stream, s->broken_planes,
+                         where);
 }
 
 static int load_stream(player *p)
 {
-    const int is_stdin = !strcmp(p->opt->stream, "-");
-    FILE *f = is_stdin ? stdin : fopen(p->opt->stream, "rb");
-    char where[FAP_ERROR_TEXT_SIZE];
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+    stream_summary summary;
+    uint8_t *data;
+    size_t size;
+    fap_err err = file_read(p->opt->stream, max_stream, &data, &size);
 
-    if (!f)
-        return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream, strerror(errno));
-    const fap_reader in = file_reader(f);
-    const fap_err err = timeline_load(&p->line, &in, note_deviation, p, where);
-    if (!is_stdin)
-        fclose(f);
+    if (err)
+        return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream,
+                         err == FAP_E_IO ? strerror(errno) : fap_strerror(err));
+    err = timeline_load(&p->line, data, size, &summary, where);
+    free(data);
     if (err)
         return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream,
                          where[0] ? where : fap_strerror(err));
+    note_deviations(p, &summary, where);
     p->report->stream_frames = (int64_t)p->line.count;
     p->report->stream_rate_hz = p->line.rate_hz;
     p->report->stream_s = (double)p->line.end_us * 1e-6;

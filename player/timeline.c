@@ -26,61 +26,51 @@ static fap_err grow(timeline *t)
     return FAP_OK;
 }
 
-static fap_err append(timeline *t, fap_frame *frame, char *where)
+/* What stream_read() hands frames to. */
+typedef struct append_target {
+    timeline *line;
+    char *where;
+} append_target;
+
+static fap_err append(void *user, const fap_frame *frame)
 {
+    const append_target *target = user;
+    timeline *t = target->line;
+
     if (t->count == TIMELINE_MAX_FRAMES || frame->pts_us > longest_us) {
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "more than %d frames or 24 hours; cut the stream",
+        snprintf(target->where, FAP_ERROR_TEXT_SIZE, "more than %d frames or 24 hours; cut the stream",
                  TIMELINE_MAX_FRAMES);
         return FAP_E_LIMIT;
     }
     const fap_err err = grow(t);
     if (err)
         return err;
-    fap_derive(frame);
-    t->frame[t->count++] = *frame;
+    t->frame[t->count] = *frame;
+    fap_derive(&t->frame[t->count++]);
     return FAP_OK;
 }
 
-static fap_err read_frames(timeline *t, fap_ascii_reader *reader, char *where)
+fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, stream_summary *summary, char *where)
 {
-    fap_frame frame;
-    fap_err err;
-
-    while ((err = fap_ascii_reader_next(reader, &frame)) == FAP_OK)
-        if ((err = append(t, &frame, where)) != FAP_OK)
-            return err;
-    if (err != FAP_E_END) {
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", fap_ascii_reader_last_error(reader));
-        return err;
-    }
-    if (!t->count) {
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "the stream has no frames");
-        return FAP_E_DATA;
-    }
-    return FAP_OK;
-}
-
-fap_err timeline_load(timeline *t, const fap_reader *in, fap_ascii_notice notice, void *user, char *where)
-{
-    fap_ascii_reader_config cfg;
-    fap_ascii_reader *reader;
+    char limit[FAP_ERROR_TEXT_SIZE] = "";
+    append_target target = { t, limit };
+    const frame_sink sink = { append, &target };
 
     *t = (timeline){ 0 };
-    where[0] = '\0';
-    fap_ascii_reader_config_init(&cfg);
-    cfg.notice = notice;
-    cfg.notice_user = user;
-    fap_err err = fap_ascii_reader_open(&reader, in, &cfg, where);
-    if (err)
-        return err;
-    t->rate_hz = fap_ascii_reader_header(reader)->rate_hz;
-    err = read_frames(t, reader, where);
-    fap_ascii_reader_close(&reader);
-    if (err)
+    fap_err err = stream_read(data, size, summary, &sink, where);
+    if (!err && !t->count) {
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "the stream has no frames");
+        err = FAP_E_DATA;
+    }
+    if (limit[0])
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", limit);
+    if (err) {
         timeline_free(t);
-    else
-        t->end_us = t->frame[t->count - 1].pts_us + timeline_time_us(1, t->rate_hz);
-    return err;
+        return err;
+    }
+    t->rate_hz = summary->header.rate_hz;
+    t->end_us = t->frame[t->count - 1].pts_us + timeline_time_us(1, t->rate_hz);
+    return FAP_OK;
 }
 
 void timeline_free(timeline *t)

@@ -9,8 +9,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <fap/ascii.h>
 #include <fap/frame.h>
+
+#include "common/streams.h"
 
 enum { TIMELINE_MAX_FRAMES = 1 << 19 }; /* 5.8 hours at 25 Hz, 200 MB */
 
@@ -22,11 +23,11 @@ typedef struct timeline {
 } timeline;
 
 /*
- * Reads all of @in. Malformed or empty streams and those past the limits fail and leave @t empty.
- * @notice  as in fap_ascii_reader_config, may be NULL
- * @where   FAP_ERROR_TEXT_SIZE bytes: line, column, reason
+ * Reads a stream of either kind. Malformed or empty ones and those past the limits fail and leave @t empty.
+ * @summary  filled: what was read, and the deviations that were tolerated
+ * @where    FAP_ERROR_TEXT_SIZE bytes: place and reason; of the first broken plane when all went well
  */
-fap_err timeline_load(timeline *t, const fap_reader *in, fap_ascii_notice notice, void *user, char *where);
+fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, stream_summary *summary, char *where);
 void timeline_free(timeline *t);
 
 /* How many frames of @rate_hz begin before the stream is over. At the stream's own rate: as many as it has.

@@ -7,25 +7,10 @@
 
 #include "player/timeline.h"
 
-typedef struct text {
-    const char *rest;
-} text;
-
-static size_t read_text(void *user, void *buf, size_t size)
-{
-    text *t = user;
-    const size_t left = strlen(t->rest), n = left < size ? left : size;
-
-    memcpy(buf, t->rest, n);
-    t->rest += n;
-    return n;
-}
-
 static fap_err load(timeline *t, const char *stream, char *where)
 {
-    text source = { stream };
-    const fap_reader in = { read_text, &source };
-    return timeline_load(t, &in, NULL, NULL, where);
+    stream_summary summary;
+    return timeline_load(t, (const uint8_t *)stream, strlen(stream), &summary, where);
 }
 
 /* One frame in which FAP @a (and @b, where not 0; above @a) is coded. */

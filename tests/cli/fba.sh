@@ -32,3 +32,13 @@ expect 1 "$B/fapenc" inspect "$T/cut.fba"
 says 'cut.fba'
 expect 2 "$B/fapenc" "$T/a.fap" --quant 32 -o "$T/x.fba"
 [ ! -e "$T/x.fba" ] || fail "a failed run left an output"
+
+# fapplay shows an .fba as it shows the .fap made from it.
+expect 0 "$B/fapenc" tests/assets/demo_take.c3d --markers tests/assets/demo_markers.csv -o "$T/play.fba"
+expect 0 "$B/fapenc" "$T/play.fba" -o "$T/play.fap"
+expect 0 "$B/fapplay" "$T/play.fba" --bank builtin -o "$T/bits.csv"
+expect 0 "$B/fapplay" "$T/play.fap" --bank builtin -o "$T/text.csv"
+cmp -s "$T/bits.csv" "$T/text.csv" || fail "an .fba plays differently from its .fap"
+head -c 2000 "$T/play.fba" >"$T/cut.fba"
+expect 0 "$B/fapplay" "$T/cut.fba" --bank builtin -o "$T/cut.csv"
+says 'broken'

@@ -6,7 +6,7 @@
 
 #include <fap/decoder.h>
 
-#include "encoder/streams.h"
+#include "common/streams.h"
 
 /* --- reading --- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* FAP streams of both kinds, .fap text and .fba bits, behind one way to read and one to write. */
-#ifndef ENCODER_STREAMS_H
-#define ENCODER_STREAMS_H
+#ifndef COMMON_STREAMS_H
+#define COMMON_STREAMS_H
 
 #include <fap/ascii.h>
 #include <fap/encoder.h>
