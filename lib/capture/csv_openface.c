@@ -13,7 +13,7 @@ enum { POINTS = 68 };
 static int is_exactly(text t, const char *word)
 {
     for (size_t i = 0; i < t.length; i++)
-        if (t.start[i] != word[i])
+        if (!word[i] || t.start[i] != word[i]) /* a cell may hold NULs of its own */
             return 0;
     return word[t.length] == '\0';
 }

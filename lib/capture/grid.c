@@ -76,7 +76,7 @@ static void census_row(const take_grid *g, row_census *c)
 
     if (!has_frame || (c->rows && (int64_t)frame <= c->last))
         c->numbered = 0;
-    if (c->rows == 0)
+    if (c->rows == 0 && has_frame)
         c->first = (int64_t)frame;
     c->last = has_frame ? (int64_t)frame : c->last;
     if (number_in(g, g->time_column, &time)) {
