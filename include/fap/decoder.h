@@ -9,6 +9,7 @@
 
 #include <fap/alloc.h>
 #include <fap/error.h>
+#include <fap/fit.h>
 #include <fap/frame.h>
 
 #ifdef __cplusplus
@@ -33,6 +34,9 @@ typedef struct fap_decoder_config {
     /** 0: what fits into 64 KiB. Otherwise how many different symbols the P planes between two I planes may
      * use, over all FAPs, up to 65534; 6 bytes each. */
     int symbol_memory;
+    /** NULL; otherwise how FAPs that the stream leaves to the decoder (fap_mask_type 2) are found first, before
+     * the other lip contour and the other side. Kept until close. */
+    const fap_fit *fit;
     fap_allocator alloc;
 } fap_decoder_config;
 
@@ -46,10 +50,15 @@ typedef struct fap_plane_info {
     uint8_t intra;      /**< 1: I plane */
     uint8_t start_code; /**< 1: a plane start code stands in front */
     uint8_t has_face, has_body;
-    uint8_t quant;                                      /**< fap_quant in force */
-    uint8_t gender;                                     /**< fba_suggested_gender in force; 1: male */
-    uint8_t mask_type[FAP_GROUPS + 1];                  /**< fap_mask_type of groups 1..10 in force */
-    uint32_t skipped;                                   /**< frames between the one before and this one */
+    uint8_t concealed;                 /**< 1: there was no plane; what follows is of the last one */
+    uint8_t quant;                     /**< fap_quant in force */
+    uint8_t gender;                    /**< fba_suggested_gender in force; 1: male */
+    uint8_t mask_type[FAP_GROUPS + 1]; /**< fap_mask_type of groups 1..10 in force */
+    uint32_t skipped;                  /**< frames between the one before and this one */
+    uint32_t header_bits;              /**< start code, stuffing in front of it, plane header */
+    uint32_t setup_bits;               /**< quantiser, masks, gender: I planes */
+    uint32_t range_bits;               /**< new range tables: I planes */
+    uint32_t body_bits;
     double rate_hz;                                     /**< in force */
     uint16_t fap_bits[FAP_COUNT + 1];                   /**< bits that the FAP's symbols took, to the bit */
     int16_t i_min[FAP_COUNT + 1], i_max[FAP_COUNT + 1]; /**< symbol ranges in force, in levels; FAPs 3..68 */
@@ -66,7 +75,8 @@ FAP_API FAP_NODISCARD fap_err fap_decoder_open(fap_decoder **decoder, const fap_
  * Hand over one unit: a whole stream, or any run of whole planes that ends on a byte boundary (a packet).
  *
  * @param data  not copied: keep it until fap_decoder_receive() has given FAP_E_AGAIN or FAP_E_END, flush or
- * close
+ *              close. NULL with size 0: the unit was lost; one frame is received for it, in which known FAPs are
+ *              FAP_CONCEALED
  * @param size  bytes, at least 1
  * @return FAP_OK taken; FAP_E_AGAIN not taken, frames of the unit before are waiting; FAP_E_ARG
  */

@@ -10,7 +10,9 @@
 
 #include <fap/alloc.h>
 #include <fap/error.h>
+#include <fap/fit.h>
 #include <fap/frame.h>
+#include <fap/sensitivity.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,14 +20,32 @@ extern "C" {
 
 typedef struct fap_encoder fap_encoder;
 
+/** What is kept constant. */
+typedef enum fap_encoder_mode {
+    FAP_ENCODE_QUANT,   /**< the quantiser: every value within half a step of the original */
+    FAP_ENCODE_BITRATE, /**< bits: never more than bitrate_bps * 2 s in any 2 seconds of media time */
+    FAP_ENCODE_ERROR, /**< millimetres: no feature point farther than max_error_mm from where it should be */
+} fap_encoder_mode;
+
 /** Options; start from fap_encoder_config_init(). */
 typedef struct fap_encoder_config {
-    size_t struct_size; /**< sizeof of this struct, set by init */
-    double rate_hz;     /**< 25; sent as the nearest of n/16 and n/16 * 1000/1001, up to 255.9375 */
-    int quant;          /**< 1; fap_quant, 0 to 31. 0: values are sent as they are */
+    size_t struct_size;    /**< sizeof of this struct, set by init */
+    double rate_hz;        /**< 25; sent as the nearest of n/16 and n/16 * 1000/1001, up to 255.9375 */
+    fap_encoder_mode mode; /**< FAP_ENCODE_QUANT */
+    int quant;           /**< 1; fap_quant, 0 to 31. 0: values are sent as they are. Other modes choose it */
+    int bitrate_bps;     /**< 2000; FAP_ENCODE_BITRATE */
+    double max_error_mm; /**< 0.5; FAP_ENCODE_ERROR */
+    const fap_sensitivity *sensitivity; /**< NULL: a typical face. Read by open only */
+    const fap_fit *fit; /**< NULL; otherwise what the decoder will have too. Kept until close */
     int intra;          /**< 250; at least one I plane in so many frames, 1 to 10000 */
-    int gender;         /**< 0; 1: male */
-    int plane_codes;    /**< 0: start codes in front of I planes; 1: in front of every plane */
+    int look_ahead; /**< 250; frames held back to choose by, up to intra. 0: for live use, every frame comes
+                             out at once as a packet of its own, and ranges are guessed with room */
+    int derive;     /**< -1: not with FAP_ENCODE_QUANT. 1: FAPs that the decoder derives well enough from
+                             others (fit, lips, sides) are left to it, fap_mask_type 2. 0: never */
+    int skip;   /**< -1: not with FAP_ENCODE_QUANT. 1: frames that change nothing are left out. 0: never */
+    int gender; /**< 0; 1: male */
+    int plane_codes; /**< 0: start codes in front of I planes; 1: in front of every plane */
+    int time_codes;  /**< 0; 1: I planes on a full second carry a time code */
     fap_allocator alloc;
 } fap_encoder_config;
 

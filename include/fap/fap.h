@@ -13,7 +13,9 @@
 #include <fap/error.h>
 #include <fap/face.h>
 #include <fap/fapu.h>
+#include <fap/fit.h>
 #include <fap/frame.h>
+#include <fap/sensitivity.h>
 #include <fap/tables.h>
 #include <fap/version.h>
 

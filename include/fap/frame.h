@@ -20,10 +20,11 @@ extern "C" {
 
 /** Where a FAP's value of this frame comes from. */
 typedef enum fap_state {
-    FAP_ABSENT = 0,  /**< never sent: the value is 0 and must not pull on the face */
-    FAP_CODED = 1,   /**< carried by this frame */
-    FAP_HELD = 2,    /**< masked out: the last value sent, kept */
-    FAP_DERIVED = 3, /**< interpolated from other FAPs by the decoder */
+    FAP_ABSENT = 0,    /**< never sent: the value is 0 and must not pull on the face */
+    FAP_CODED = 1,     /**< carried by this frame */
+    FAP_HELD = 2,      /**< masked out: the last value sent, kept */
+    FAP_DERIVED = 3,   /**< interpolated from other FAPs by the decoder */
+    FAP_CONCEALED = 4, /**< predicted: the unit that carries it was lost */
 } fap_state;
 
 /** FAP 1: shown = viseme1 * blend/63 + viseme2 * (1 - blend/63). */
