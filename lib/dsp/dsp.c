@@ -94,6 +94,8 @@ unsigned fap_cpu_detect(void)
 {
 #if defined(__x86_64__) && defined(__GNUC__)
     return __builtin_cpu_supports("avx2") ? FAP_CPU_AVX2 : 0;
+#elif defined(__aarch64__)
+    return FAP_CPU_NEON;
 #else
     return 0;
 #endif
@@ -104,6 +106,8 @@ void fap_dsp_init(fap_dsp *dsp, unsigned cpu)
     *dsp = (fap_dsp){ add_key_c, add_field_c, rotate_c, triangle_normals_c, sum_normals_c, normalise_c };
 #if defined(__x86_64__) && defined(__GNUC__)
     fap_dsp_init_x86(dsp, cpu);
+#elif defined(__aarch64__) && defined(__GNUC__)
+    fap_dsp_init_arm(dsp, cpu);
 #else
     (void)cpu;
 #endif

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { FAP_CPU_AVX2 = 1 };
+enum { FAP_CPU_AVX2 = 1, FAP_CPU_NEON = 2 };
 
 typedef struct fap_dsp {
     /* xyz[axis][8 * block[b] + i] += w * delta[b][axis][i] */
@@ -35,7 +35,8 @@ typedef struct fap_dsp {
 unsigned fap_cpu_detect(void);
 /* cpu 0: plain C. */
 void fap_dsp_init(fap_dsp *dsp, unsigned cpu);
-/* Replaces the kernels that this CPU has faster ones for; x86/dsp_avx2.c. */
+/* Replace the kernels that this CPU has faster ones for; x86/dsp_avx2.c, arm/dsp_neon.c. */
 void fap_dsp_init_x86(fap_dsp *dsp, unsigned cpu);
+void fap_dsp_init_arm(fap_dsp *dsp, unsigned cpu);
 
 #endif
