@@ -15,16 +15,15 @@ typedef struct arith_interval {
     uint32_t low, high, total;
 } arith_interval;
 
-enum { ARITH_HISTORY = 16 };
-
 typedef struct arith_decoder {
     fap_bits *bits;
-    uint32_t low, high, code;
-    unsigned zeros;                 /* code bits 0 in a row */
-    uint64_t read, shifts;          /* code bits read, renormalisations done */
-    uint64_t at;                    /* in the stream */
-    uint64_t behind[ARITH_HISTORY]; /* stream position behind code bit number i % ARITH_HISTORY */
-    uint64_t false_stuffing; /* number of the code bit in front of which a stuffed bit was 0; 0: none */
+    uint32_t low, span; /* the interval */
+    uint32_t offset;    /* of the code in it */
+    int zeros;          /* code bits 0 in a row */
+    uint64_t shifts;    /* renormalisations done; 16 code bits more were read */
+    uint64_t at;        /* in the stream */
+    uint64_t stuffed;   /* number of the code bit in front of which the last stuffed bit was; 0: none */
+    uint64_t not_a_1;   /* the same of the first stuffed bit that was 0 */
 } arith_decoder;
 
 void fap_arith_begin(arith_decoder *a, fap_bits *bits);
@@ -37,8 +36,9 @@ void fap_arith_end(arith_decoder *a);
 
 typedef struct arith_encoder {
     fap_bit_writer *bits;
-    uint32_t low, high;
-    unsigned zeros, pending;
+    uint32_t low, span; /* the interval */
+    int zeros;
+    unsigned pending; /* bits that will be the opposite of the next one */
 } arith_encoder;
 
 void fap_arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits);

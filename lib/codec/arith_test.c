@@ -272,3 +272,167 @@ TEST(arith, a_wrong_stuffed_bit_is_noticed)
     fap_arith_end(&a);
     assert_int_equal(b.bad, BITS_MARKER);
 }
+
+/* --- against a coder that doubles the interval one step at a time, as the standard has it --- */
+
+typedef struct plain_coder {
+    uint32_t low, high, code;
+    const fap_bits *in;
+    uint64_t at, read, behind[4096], false_stuffing;
+    fap_bit_writer *out;
+    int zeros, pending;
+} plain_coder;
+
+static uint32_t plain_read(plain_coder *c)
+{
+    c->read++;
+    if (c->zeros == 22) {
+        c->zeros = 0;
+        if (!fap_bits_peek(c->in, c->at++, 1) && !c->false_stuffing)
+            c->false_stuffing = c->read;
+    }
+    const uint32_t bit = fap_bits_peek(c->in, c->at++, 1);
+    c->zeros = bit ? 0 : c->zeros + 1;
+    c->behind[c->read] = c->at;
+    return bit;
+}
+
+static void plain_write(plain_coder *c, uint32_t bit)
+{
+    if (c->zeros == 22)
+        fap_bits_put(c->out, 1, 1);
+    c->zeros = bit ? 0 : c->zeros % 22 + 1;
+    fap_bits_put(c->out, 1, bit);
+}
+
+static void plain_decide(plain_coder *c, uint32_t bit)
+{
+    plain_write(c, bit);
+    for (; c->pending; c->pending--)
+        plain_write(c, !bit);
+}
+
+static void plain_step(plain_coder *c, arith_interval i)
+{
+    const uint32_t span = c->high - c->low + 1;
+
+    c->high = c->low + span * i.high / i.total - 1;
+    c->low += span * i.low / i.total;
+    for (;;) {
+        const int upper = c->low >= 32768, across = c->low >= 16384 && c->high < 49152;
+        if (!upper && c->high >= 32768 && !across)
+            return;
+        const uint32_t offset = upper ? 32768 : c->high < 32768 ? 0 : 16384;
+        c->low = 2 * (c->low - offset);
+        c->high = 2 * (c->high - offset) + 1;
+        if (c->in)
+            c->code = 2 * (c->code - offset) + plain_read(c);
+        else if (offset == 16384)
+            c->pending++;
+        else
+            plain_decide(c, (uint32_t)upper);
+    }
+}
+
+TEST(arith, writes_the_bits_of_the_plain_coder)
+{
+    static uint8_t data[2][1024];
+    uint32_t seed = 11;
+
+    for (int i = 0; i < 3000; i++) {
+        const run r = random_run(&seed);
+        fap_bit_writer w[2];
+
+        for (int k = 0; k < 2; k++)
+            fap_bit_writer_init(&w[k], data[k], sizeof data[k]);
+        put_run(&w[0], &r);
+        plain_coder c = { .high = 65535, .out = &w[1] };
+        for (int k = 0; k < r.count; k++)
+            plain_step(&c, r.i[k]);
+        c.pending++;
+        plain_decide(&c, c.low >= 16384);
+        assert_int_equal(w[0].at, w[1].at);
+        assert_memory_equal(data[0], data[1], (size_t)(w[0].at + 7) / 8);
+    }
+}
+
+/* Any interval of @p total that holds @p target. */
+static arith_interval around(uint32_t target, uint32_t total, uint32_t *seed)
+{
+    const uint32_t low = draw(seed) % 2 ? target : target - draw(seed) % (target + 1);
+    return (arith_interval){ low, target + 1 + draw(seed) % (total - target), total };
+}
+
+/* Bits that no encoder wrote, many of them 0, from any place to beyond the end. */
+TEST(arith, reads_any_bits_as_the_plain_coder_does)
+{
+    uint8_t data[64];
+    uint32_t seed = 13;
+    int faults = 0;
+
+    for (int i = 0; i < 20000; i++) {
+        const size_t size = 1 + draw(&seed) % sizeof data;
+        const uint32_t zeros = 1 + draw(&seed) % 16;
+        for (size_t k = 0; k < size; k++)
+            data[k] = (uint8_t)(draw(&seed) % zeros ? 0 : draw(&seed));
+        fap_bits b;
+        arith_decoder a;
+        fap_bits_init(&b, data, size);
+        b.at = draw(&seed) % 9;
+        plain_coder c = { .high = 65535, .in = &b, .at = b.at };
+        for (int k = 0; k < 16; k++)
+            c.code = c.code << 1 | plain_read(&c);
+        fap_arith_begin(&a, &b);
+        for (int count = (int)(draw(&seed) % MAX_RUN); count > 0; count--) {
+            const uint32_t total = 1 + draw(&seed) % 16383;
+            const uint32_t target = ((c.code - c.low + 1) * total - 1) / (c.high - c.low + 1);
+            assert_int_equal(fap_arith_target(&a, total), target);
+            const arith_interval where = around(target, total, &seed);
+            fap_arith_take(&a, where);
+            plain_step(&c, where);
+        }
+        fap_arith_end(&a);
+        const uint64_t last = c.read - 14, end = c.behind[last];
+        const int is_false = c.false_stuffing && c.false_stuffing <= last;
+        assert_int_equal(b.at, end < b.end ? end : b.end);
+        assert_int_equal(b.bad, end > b.end ? BITS_PAST_END : is_false ? BITS_MARKER : BITS_FINE);
+        faults += b.bad == BITS_MARKER;
+    }
+    assert_true(faults > 100);
+}
+
+TEST(bits, any_width_at_any_place_reads_like_single_bits)
+{
+    uint8_t data[19];
+    uint32_t seed = 17;
+    fap_bits b;
+
+    for (size_t k = 0; k < sizeof data; k++)
+        data[k] = (uint8_t)draw(&seed);
+    for (size_t size = 1; size <= sizeof data; size++) {
+        fap_bits_init(&b, data, size);
+        for (uint64_t at = 0; at < b.end + 9; at++)
+            for (int n = 0; n <= 32; n++) {
+                uint32_t want = 0;
+                for (uint64_t k = at; k < at + (uint64_t)n; k++)
+                    want = want << 1 | (k < b.end ? data[k / 8] >> (7 - k % 8) & 1u : 0);
+                assert_int_equal(fap_bits_peek(&b, at, n), want);
+            }
+    }
+}
+
+TEST(bits, what_stands_behind_the_writer_does_not_matter)
+{
+    uint8_t data[3] = { 0xFF, 0xFF, 0xFF };
+    fap_bit_writer w;
+
+    fap_bit_writer_init(&w, data, sizeof data);
+    fap_bits_put(&w, 0, 1);
+    fap_bits_put(&w, 3, 2 + 8); /* more than its 3 bits */
+    fap_bits_put(&w, 10, 0);
+    assert_int_equal(data[0], 0x40);
+    assert_int_equal(data[1], 0);
+    w.at = 2; /* taken back */
+    fap_bits_put(&w, 2, 1);
+    assert_int_equal(data[0], 0x50);
+}

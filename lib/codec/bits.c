@@ -7,13 +7,14 @@ void fap_bits_init(fap_bits *b, const uint8_t *data, size_t size)
     *b = (fap_bits){ .data = data, .end = (uint64_t)size * 8 };
 }
 
-uint32_t fap_bits_peek(const fap_bits *b, uint64_t at, int n)
+uint32_t fap_bits_peek_tail(const fap_bits *b, uint64_t at, int n)
 {
-    uint32_t v = 0;
+    const uint64_t first = at / 8, size = b->end / 8;
+    uint8_t tail[8] = { 0 };
 
-    for (; n > 0; n--, at++)
-        v = v << 1 | fap_bits_peek_1(b, at);
-    return v;
+    for (uint64_t i = 0; i < sizeof tail && first + i < size; i++)
+        tail[i] = b->data[first + i];
+    return (uint32_t)(fap_bits_word(tail) << at % 8 >> 1 >> (63 - n));
 }
 
 static void fault(fap_bits *b, bits_fault what)
@@ -59,24 +60,21 @@ void fap_bit_writer_init(fap_bit_writer *w, uint8_t *data, size_t room)
     *w = (fap_bit_writer){ .data = data, .room = room };
 }
 
-static void put_bit(fap_bit_writer *w, unsigned bit)
-{
-    const size_t byte = (size_t)(w->at / 8);
-
-    if (byte >= w->room) {
-        w->full = 1;
-        return;
-    }
-    if (w->at % 8 == 0)
-        w->data[byte] = 0;
-    w->data[byte] |= (uint8_t)(bit << (7 - w->at % 8));
-    w->at++;
-}
-
+/* What of the last byte is not yet written is 0, so that pieces can be joined. */
 void fap_bits_put(fap_bit_writer *w, int n, uint32_t value)
 {
-    while (n-- > 0)
-        put_bit(w, value >> n & 1);
+    while (n > 0) {
+        const size_t byte = (size_t)(w->at / 8);
+        const int used = (int)(w->at % 8), take = n < 8 - used ? n : 8 - used;
+        if (byte >= w->room) {
+            w->full = 1;
+            return;
+        }
+        n -= take;
+        const unsigned before = used ? w->data[byte] : 0, piece = value >> n & ((1u << take) - 1);
+        w->data[byte] = (uint8_t)(before | piece << (8 - used - take));
+        w->at += (uint64_t)take;
+    }
 }
 
 void fap_bits_put_stuffing(fap_bit_writer *w)

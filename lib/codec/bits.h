@@ -26,11 +26,22 @@ uint32_t fap_bits_get(fap_bits *b, int n);
 void fap_bits_marker(fap_bits *b);
 /* What went wrong, in words. */
 const char *fap_bits_why(const fap_bits *b);
-/* @p n bits (0 to 32) at @p at without moving; zeros past the end, which is no fault. */
-uint32_t fap_bits_peek(const fap_bits *b, uint64_t at, int n);
-static inline uint32_t fap_bits_peek_1(const fap_bits *b, uint64_t at)
+/* As fap_bits_peek(), for the last bytes of the data. */
+uint32_t fap_bits_peek_tail(const fap_bits *b, uint64_t at, int n);
+
+/* Eight bytes as one number; compilers make one load of it. */
+static inline uint64_t fap_bits_word(const uint8_t *p)
 {
-    return at < b->end ? b->data[at / 8] >> (7 - at % 8) & 1u : 0;
+    return (uint64_t)p[0] << 56 | (uint64_t)p[1] << 48 | (uint64_t)p[2] << 40 | (uint64_t)p[3] << 32 |
+           (uint64_t)p[4] << 24 | (uint64_t)p[5] << 16 | (uint64_t)p[6] << 8 | (uint64_t)p[7];
+}
+
+/* @p n bits (0 to 32) at @p at without moving; zeros past the end, which is no fault. */
+static inline uint32_t fap_bits_peek(const fap_bits *b, uint64_t at, int n)
+{
+    if (at + 64 > b->end)
+        return fap_bits_peek_tail(b, at, n);
+    return (uint32_t)(fap_bits_word(b->data + at / 8) << at % 8 >> 1 >> (63 - n)); /* n may be 0 */
 }
 
 typedef struct fap_bit_writer {
