@@ -6,6 +6,7 @@
 
 #include "common/json.h"
 #include "common/tool.h"
+#include "databank/observed.h"
 #include "databank/report.h"
 
 static const char *const kinds[] = { "viseme", "expression", "extra", "unit" };
@@ -68,6 +69,7 @@ static void print_text(const report *rep, const numbers *n)
         printf("  %-10s %-20s %6u blocks, up to %5.1f mm\n", kinds[key->kind], key->name, key->block_count,
                reach_mm(key));
     }
+    observed_print(rep->bank);
 }
 
 static void put_fapu(json *j, const fap_fapu *u)
@@ -115,6 +117,7 @@ static void print_json(const report *rep, const options *opt, const numbers *n)
     json_integer(&j, "points", n->point_count);
     put_fapu(&j, fap_bank_fapu(rep->bank));
     put_keys(&j, rep->bank);
+    observed_put(&j, rep->bank);
     json_close(&j, '}');
 }
 
