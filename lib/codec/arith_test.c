@@ -77,11 +77,11 @@ TEST(bits, a_full_writer_stops)
 
 enum { SYMBOLS = 300 };
 
-static arith_interval plain_interval(const uint32_t *count, int symbol)
+static arith_interval plain_interval(const uint32_t *count, int size, int symbol)
 {
     arith_interval i = { 0 };
 
-    for (int k = SYMBOLS - 1; k >= 0; k--) {
+    for (int k = size - 1; k >= 0; k--) {
         i.low += k > symbol ? count[k] : 0;
         i.total += count[k];
     }
@@ -89,37 +89,78 @@ static arith_interval plain_interval(const uint32_t *count, int symbol)
     return i;
 }
 
-static void plain_count(uint32_t *count, int symbol)
+static void plain_count(uint32_t *count, int size, int symbol)
 {
-    if (plain_interval(count, 0).total == 16383)
-        for (int k = 0; k < SYMBOLS; k++)
+    if (plain_interval(count, size, 0).total == 16383)
+        for (int k = 0; k < size; k++)
             count[k] = (count[k] + 1) / 2;
     count[symbol]++;
+}
+
+/* Coded symbols lie around @p centre, the nearer the more often; 1 in 100 anywhere. */
+static int likely_symbol(uint32_t *seed, int size, int centre, int width)
+{
+    const int off = (int)(draw(seed) % (1 + draw(seed) % (unsigned)width)) * (draw(seed) % 2 ? 1 : -1);
+    const int symbol = draw(seed) % 100 ? centre + off : (int)(draw(seed) % (unsigned)size);
+    return symbol < 0 ? 0 : symbol >= size ? size - 1 : symbol;
+}
+
+/* One symbol by one of the three ways there are, all of which must see the plain interval. */
+static void code_like_plain(model_pool *pool, model *m, uint32_t *count, int size, int symbol, uint32_t *seed)
+{
+    const arith_interval want = plain_interval(count, size, symbol);
+    const uint32_t target = want.low + draw(seed) % (want.high - want.low);
+    arith_interval got = fap_model_interval(pool, m, size, symbol);
+
+    assert_memory_equal(&got, &want, sizeof got);
+    got = (arith_interval){ 0 };
+    assert_int_equal(fap_model_total(m, size), want.total);
+    switch (draw(seed) % 3) {
+    case 0: assert_int_equal(fap_model_decode(pool, m, size, target, &got), symbol); break;
+    case 1: assert_int_equal(fap_model_encode(pool, m, size, symbol, &got), 1); break;
+    default: assert_int_equal(fap_model_count(pool, m, size, symbol), 1); return;
+    }
+    assert_memory_equal(&got, &want, sizeof got);
 }
 
 TEST(models, count_like_a_table_of_all_symbols)
 {
     static model_node node[SYMBOLS + 1];
+    const int sizes[] = { SYMBOLS, 1, 2, 61, 15 };
     uint32_t count[SYMBOLS], seed = 7;
+    model_pool pool;
+
+    fap_model_pool_init(&pool, node, SYMBOLS);
+    for (int round = 0; round < 5; round++) {
+        model m = { 0 };
+        const int size = sizes[round];
+        for (int k = 0; k < size; k++)
+            count[k] = 1;
+        for (int i = 0; i < 40000; i++) {
+            const int symbol = likely_symbol(&seed, size, i / 5000 * size / 8, 1 + size / 8);
+            code_like_plain(&pool, &m, count, size, symbol, &seed);
+            plain_count(count, size, symbol);
+        }
+        fap_model_clear(&pool, &m);
+        assert_int_equal(fap_model_total(&m, size), size);
+    }
+}
+
+/* What the two lists cost is what their walks cost: the most frequent symbol must stand near their beginnings. */
+TEST(models, a_frequent_symbol_is_first_in_its_list)
+{
+    static model_node node[101];
     model_pool pool;
     model m = { 0 };
 
-    fap_model_pool_init(&pool, node, SYMBOLS);
-    for (int k = 0; k < SYMBOLS; k++)
-        count[k] = 1;
-    for (int i = 0; i < 40000; i++) {
-        const int symbol = (int)(draw(&seed) % 100 ? draw(&seed) % 20 + 100 : draw(&seed) % SYMBOLS);
-        const arith_interval want = plain_interval(count, symbol);
-        arith_interval got = fap_model_interval(&pool, &m, SYMBOLS, symbol);
-        assert_memory_equal(&got, &want, sizeof got);
-        const uint32_t target = want.low + draw(&seed) % (want.high - want.low);
-        assert_int_equal(fap_model_find(&pool, &m, SYMBOLS, target, &got), symbol);
-        assert_memory_equal(&got, &want, sizeof got);
-        plain_count(count, symbol);
-        assert_int_equal(fap_model_count(&pool, &m, SYMBOLS, symbol), 1);
-    }
-    fap_model_clear(&pool, &m);
-    assert_int_equal(fap_model_total(&m, SYMBOLS), SYMBOLS);
+    fap_model_pool_init(&pool, node, 100);
+    for (int k = 0; k < 100; k++)
+        assert_int_equal(fap_model_count(&pool, &m, 100, k), 1);
+    for (int k = 0; k < 300; k++)
+        assert_int_equal(fap_model_count(&pool, &m, 100, 90), 1);
+    const int down = node[m.first[MODEL_DOWN]].symbol, up = node[m.first[MODEL_UP]].symbol;
+    assert_true(down == 90 || up == 90);
+    assert_int_equal(up, down + 1);
 }
 
 TEST(models, say_when_their_memory_is_used_up)
@@ -132,6 +173,9 @@ TEST(models, say_when_their_memory_is_used_up)
     assert_int_equal(fap_model_count(&pool, &m, 10, 4), 1);
     assert_int_equal(fap_model_count(&pool, &m, 10, 5), 1);
     assert_int_equal(fap_model_count(&pool, &m, 10, 6), 0);
+    arith_interval i;
+    assert_int_equal(fap_model_decode(&pool, &m, 10, 0, &i), -1);
+    assert_int_equal(fap_model_encode(&pool, &m, 10, 9, &i), 0);
     assert_int_equal(fap_model_count(&pool, &m, 10, 5), 1);
     fap_model_clear(&pool, &m);
     assert_int_equal(fap_model_count(&pool, &m, 10, 6), 1);
@@ -435,4 +479,16 @@ TEST(bits, what_stands_behind_the_writer_does_not_matter)
     w.at = 2; /* taken back */
     fap_bits_put(&w, 2, 1);
     assert_int_equal(data[0], 0x50);
+}
+
+TEST(models, flat_ones_are_models_that_counted_nothing)
+{
+    const model none = { 0 };
+
+    for (int symbol = 0; symbol < 20; symbol++) {
+        const arith_interval want = fap_model_interval(NULL, &none, 20, symbol),
+                             got = fap_flat_interval(20, symbol);
+        assert_memory_equal(&got, &want, sizeof got);
+        assert_int_equal(fap_flat_symbol(20, want.low), symbol);
+    }
 }

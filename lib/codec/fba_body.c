@@ -87,7 +87,6 @@ static fap_err read_intra_header(fba_body *body, fap_bits *b)
 
 static fap_err skip_symbols(fba_body *body, fap_bits *b, int intra, model_pool *pool)
 {
-    static const model flat;
     arith_decoder a;
     arith_interval where;
 
@@ -95,13 +94,14 @@ static fap_err skip_symbols(fba_body *body, fap_bits *b, int intra, model_pool *
     for (int i = 0; i < BODY_PARAMS; i++) {
         if (!body->coded[i])
             continue;
-        const model *m = intra ? &flat : &body->model[i];
+        model *m = &body->model[i];
         const int size = fba_range_size(body->range[intra ? FBA_I : FBA_P][i]);
-        const int symbol =
-            fap_model_find(pool, m, size, fap_arith_target(&a, fap_model_total(m, size)), &where);
-        fap_arith_take(&a, where);
-        if (!intra && !fap_model_count(pool, &body->model[i], size, symbol))
+        const uint32_t target = fap_arith_target(&a, fap_model_total(m, size));
+        if (intra)
+            where = fap_flat_interval(size, fap_flat_symbol(size, target));
+        else if (fap_model_decode(pool, m, size, target, &where) < 0)
             return FAP_E_LIMIT;
+        fap_arith_take(&a, where);
     }
     fap_arith_end(&a);
     return FAP_OK;

@@ -113,20 +113,26 @@ static void add_value(fba_face *p, int param, int32_t level, int intra)
 /* One symbol. 0: no memory to count it. */
 static int read_symbol(fba_face_reader *r, arith_decoder *a, fba_face *p, int param, int intra)
 {
-    static const model flat; /* I symbols are coded with counts of 1 */
-    model *const adaptive = &r->model[param];
-    const model *const m = intra ? &flat : adaptive;
+    model *const m = &r->model[param]; /* I planes have cleared it and do not use it */
     const fba_range range = fap_fba_param_range(&p->setup, param, intra);
-    const int size = fba_range_size(range);
+    const int size = fba_range_size(range), fap = fap_fba_fap(param);
+    const uint32_t target = fap_arith_target(a, fap_model_total(m, size));
     const uint64_t before = a->shifts;
     arith_interval where;
+    int symbol;
 
-    const int symbol =
-        fap_model_find(r->pool, m, size, fap_arith_target(a, fap_model_total(m, size)), &where);
+    if (intra) {
+        symbol = fap_flat_symbol(size, target);
+        where = fap_flat_interval(size, symbol);
+    } else {
+        symbol = fap_model_decode(r->pool, m, size, target, &where);
+        if (symbol < 0)
+            return 0;
+    }
     fap_arith_take(a, where);
-    p->fap_bits[fap_fba_fap(param)] = (uint16_t)(p->fap_bits[fap_fba_fap(param)] + (a->shifts - before));
+    p->fap_bits[fap] = (uint16_t)(p->fap_bits[fap] + (a->shifts - before));
     add_value(p, param, symbol + range.min, intra);
-    return intra || fap_model_count(r->pool, adaptive, size, symbol);
+    return 1;
 }
 
 /* One arithmetic run: the coded ones of params [first, end). */

@@ -11,12 +11,18 @@
 
 /* A symbol that was coded: its count is 1 + extra. */
 typedef struct model_node {
-    uint16_t symbol, extra, next; /* next: lower symbol; 0 ends the list */
+    uint16_t symbol, extra, next; /* 0 ends the list */
 } model_node;
 
+/*
+ * The nodes of a table, in two lists that begin where half of the counts lie on either side and lead away from
+ * there: what is frequent is found in a step or two. All 0: every symbol counts 1.
+ */
+enum { MODEL_DOWN, MODEL_UP };
+
 typedef struct model {
-    uint16_t first; /* the highest symbol of the list; 0: none */
-    uint16_t extra; /* sum over the list */
+    uint16_t first[2]; /* nodes; 0: none */
+    uint16_t sum[2];   /* of extra */
 } model;
 
 typedef struct model_pool {
@@ -34,12 +40,25 @@ void fap_model_pool_init(model_pool *pool, model_node *node, uint16_t count);
 /* All symbols count 1 again. */
 void fap_model_clear(model_pool *pool, model *m);
 
-/* The symbol of @p size that holds @p target, and its interval. */
-int fap_model_find(const model_pool *pool, const model *m, int size, uint32_t target, arith_interval *out);
-/* The interval of @p symbol. */
-arith_interval fap_model_interval(const model_pool *pool, const model *m, int size, int symbol);
 uint32_t fap_model_total(const model *m, int size);
-/* Counts @p symbol once more; 0: the pool is used up. */
+/* The symbol of @p size that holds @p target, and its interval; counts it. -1: the pool is used up. */
+int fap_model_decode(model_pool *pool, model *m, int size, uint32_t target, arith_interval *out);
+/* The interval of @p symbol, as it is before counting it; 0: the pool is used up. */
+int fap_model_encode(model_pool *pool, model *m, int size, int symbol, arith_interval *out);
+
+/* The two halves of fap_model_encode(), for those who must know before they decide. */
+arith_interval fap_model_interval(const model_pool *pool, const model *m, int size, int symbol);
 int fap_model_count(model_pool *pool, model *m, int size, int symbol);
+
+/* Where every symbol counts 1. */
+static inline arith_interval fap_flat_interval(int size, int symbol)
+{
+    const uint32_t low = (uint32_t)(size - 1 - symbol);
+    return (arith_interval){ low, low + 1, (uint32_t)size };
+}
+static inline int fap_flat_symbol(int size, uint32_t target)
+{
+    return size - 1 - (int)target;
+}
 
 #endif
