@@ -38,6 +38,28 @@ fba_range fap_fba_param_range(const fba_setup *s, int param, int intra)
     return (fba_range){ intra ? 0 : (int16_t)-max, max };
 }
 
+static fba_coded coded_param(const fba_setup *s, int param)
+{
+    fba_coded c = { .param = (uint8_t)param,
+                    .fap = (uint8_t)fap_fba_fap(param),
+                    .step = (uint16_t)fap_fba_step(param, s->quant) };
+
+    for (int kind = 0; kind < 2; kind++) {
+        const fba_range range = fap_fba_param_range(s, param, kind == FBA_I);
+        c.symbols[kind].min = range.min;
+        c.symbols[kind].size = (uint16_t)fba_range_size(range);
+    }
+    return c;
+}
+
+void fap_fba_list_coded(fba_coded_list *list, const fba_setup *s)
+{
+    list->count = 0;
+    for (int param = 0; param < FBA_PARAMS; param++)
+        if (s->coded[fap_fba_fap(param)])
+            list->of[list->count++] = coded_param(s, param);
+}
+
 int fap_fba_bound(int n, int quant)
 {
     return n * FBA_BOUND_UNIT / (quant ? quant : 1);

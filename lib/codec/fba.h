@@ -61,6 +61,24 @@ typedef struct fba_setup {
     fba_range range[2][FAP_COUNT + 1]; /* FAPs 3..68 */
 } fba_setup;
 
+/* A coded parameter, with all that its symbols need. */
+typedef struct fba_coded {
+    uint8_t param, fap;
+    uint16_t step; /* what one level is worth */
+    struct {
+        int16_t min;
+        uint16_t size;
+    } symbols[2]; /* [FBA_P], [FBA_I]: symbol 0 is level min */
+} fba_coded;
+
+/* The coded parameters of a setup, in order: computed once, used by every plane. */
+typedef struct fba_coded_list {
+    int count;
+    fba_coded of[FBA_PARAMS];
+} fba_coded_list;
+
+void fap_fba_list_coded(fba_coded_list *list, const fba_setup *s);
+
 /* The FAP a parameter belongs to. */
 int fap_fba_fap(int param);
 /* What one level of a parameter is worth. */

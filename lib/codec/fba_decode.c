@@ -160,12 +160,21 @@ static fap_err read_header(fap_decoder *d, plane_header *h)
 
 /* --- planes --- */
 
+/* Of @p copy, P planes use the motion alone. */
 static fap_err read_face(fap_decoder *d, fba_face *copy, int intra)
 {
     fba_face_reader r = { &d->bits, d->model, &d->pool, d->cfg.default_bound, 0, "", "" };
 
-    *copy = d->face;
-    const fap_err err = fap_fba_face_read(&r, copy, intra);
+    fap_err err = FAP_OK;
+
+    if (intra) {
+        *copy = d->face;
+        err = fap_fba_face_set_up(&r, copy);
+    } else {
+        copy->motion = d->face.motion;
+    }
+    if (err == FAP_OK)
+        err = fap_fba_face_move(&r, intra ? &copy->list : &d->face.list, &copy->motion, intra);
     return err == FAP_OK ? err : fail(d, err, r.at, r.what, r.why);
 }
 
@@ -182,9 +191,12 @@ static fap_err read_body(fap_decoder *d, int intra)
     return check_bits(d, "body data");
 }
 
-static void keep_face(fap_decoder *d, const fba_face *copy)
+static void keep_face(fap_decoder *d, const fba_face *copy, int intra)
 {
-    d->face = *copy;
+    if (intra)
+        d->face = *copy;
+    else
+        d->face.motion = copy->motion;
     d->face_ready = 1;
     d->segments = 0;
 }
@@ -219,7 +231,7 @@ static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
     i->gender = d->face.setup.gender;
     memcpy(i->mask_type, d->face.setup.mask_type, sizeof i->mask_type);
     i->skipped = h->time.skipped;
-    memcpy(i->fap_bits, d->face.fap_bits, sizeof i->fap_bits);
+    memcpy(i->fap_bits, d->face.motion.fap_bits, sizeof i->fap_bits);
     i->rate_hz = fap_fba_rate_hz(d->time.rate_16, d->time.offset);
     for (int fap = 3; fap <= FAP_COUNT; fap++) {
         i->i_min[fap] = d->face.setup.range[FBA_I][fap].min;
@@ -292,9 +304,9 @@ static fap_err read_plane(fap_decoder *d, uint64_t start)
     if (err != FAP_OK)
         return lose(d, at), err;
     if (h.has_face)
-        keep_face(d, &copy);
+        keep_face(d, &copy, h.intra);
     else
-        memset(d->face.fap_bits, 0, sizeof d->face.fap_bits);
+        memset(d->face.motion.fap_bits, 0, sizeof d->face.motion.fap_bits);
     d->body_ready |= h.has_body;
     show_frame(d, &h);
     fill_info(d, &h, start);

@@ -78,10 +78,12 @@ static void install_default_ranges(fba_face_reader *r, fba_face *p)
     p->has_ranges = 1;
 }
 
-static fap_err read_setup(fba_face_reader *r, fba_face *p)
+fap_err fap_fba_face_set_up(fba_face_reader *r, fba_face *p)
 {
     fap_bits *b = r->bits;
 
+    for (int param = 0; param < FBA_PARAMS; param++)
+        fap_model_clear(r->pool, &r->model[param]);
     p->setup.quant = (uint8_t)fap_bits_get(b, 5);
     for (int group = 1; group <= FAP_GROUPS; group++)
         read_group_mask(b, group, &p->setup);
@@ -98,55 +100,76 @@ static fap_err read_setup(fba_face_reader *r, fba_face *p)
     for (int table = 0; table < 4; table++)
         if (is_new >> (3 - table) & 1)
             read_range_table(b, &p->setup, table);
+    fap_fba_list_coded(&p->list, &p->setup);
     return check_bits(r, "symbol ranges");
 }
 
 /* --- values --- */
 
-static void add_value(fba_face *p, int param, int32_t level, int intra)
-{
-    const int64_t v = (int64_t)level * fap_fba_step(param, p->setup.quant) + (intra ? 0 : p->value[param]);
+/* What one plane's values are read from and into. */
+typedef struct plane_reader {
+    fba_face_reader *r;
+    fba_motion *motion;
+    const fba_coded *next, *end; /* parameters still to come */
+    int kind;                    /* FBA_P, FBA_I */
+} plane_reader;
 
-    p->value[param] = (int32_t)(v > value_limit ? value_limit : v < -value_limit ? -value_limit : v);
+static int32_t limited(int64_t v)
+{
+    return (int32_t)(v > value_limit ? value_limit : v < -value_limit ? -value_limit : v);
 }
 
-/* One symbol. 0: no memory to count it. */
-static int read_symbol(fba_face_reader *r, arith_decoder *a, fba_face *p, int param, int intra)
+/* The next symbol, -1: no memory to count it. In I planes all count 1. */
+static int read_symbol(const plane_reader *p, arith_decoder *a, const fba_coded *c)
 {
-    model *const m = &r->model[param]; /* I planes have cleared it and do not use it */
-    const fba_range range = fap_fba_param_range(&p->setup, param, intra);
-    const int size = fba_range_size(range), fap = fap_fba_fap(param);
-    const uint32_t target = fap_arith_target(a, fap_model_total(m, size));
-    const uint64_t before = a->shifts;
+    const int size = c->symbols[p->kind].size;
+    model *m = &p->r->model[c->param];
     arith_interval where;
     int symbol;
 
-    if (intra) {
-        symbol = fap_flat_symbol(size, target);
+    if (p->kind == FBA_I) {
+        symbol = fap_flat_symbol(size, fap_arith_target(a, (uint32_t)size));
         where = fap_flat_interval(size, symbol);
     } else {
-        symbol = fap_model_decode(r->pool, m, size, target, &where);
-        if (symbol < 0)
-            return 0;
+        const uint32_t target = fap_arith_target(a, fap_model_total(m, size));
+        symbol = fap_model_decode(p->r->pool, m, size, target, &where);
     }
-    fap_arith_take(a, where);
-    p->fap_bits[fap] = (uint16_t)(p->fap_bits[fap] + (a->shifts - before));
-    add_value(p, param, symbol + range.min, intra);
+    if (symbol >= 0)
+        fap_arith_take(a, where);
+    return symbol;
+}
+
+static int read_value(const plane_reader *p, arith_decoder *a, const fba_coded *c)
+{
+    const uint64_t before = a->shifts;
+    const int symbol = read_symbol(p, a, c);
+    fba_motion *m = p->motion;
+
+    if (symbol < 0)
+        return 0;
+    const int64_t from = p->kind == FBA_I ? 0 : m->value[c->param];
+    m->value[c->param] = limited(from + (int64_t)(symbol + c->symbols[p->kind].min) * c->step);
+    m->fap_bits[c->fap] = (uint16_t)(m->fap_bits[c->fap] + (a->shifts - before));
     return 1;
 }
 
-/* One arithmetic run: the coded ones of params [first, end). */
-static fap_err read_run(fba_face_reader *r, fba_face *p, int first, int end, int intra)
+/* One arithmetic run: the coded ones of the parameters in front of @p end. */
+static fap_err read_run(plane_reader *p, int end)
 {
     arith_decoder a;
 
-    fap_arith_begin(&a, r->bits);
-    for (int param = first; param < end; param++)
-        if (p->setup.coded[fap_fba_fap(param)] && !read_symbol(r, &a, p, param, intra))
-            return fail(r, FAP_E_LIMIT, r->bits->at, "P plane",
+    fap_arith_begin(&a, p->r->bits);
+    for (; p->next < p->end && p->next->param < end; p->next++)
+        if (!read_value(p, &a, p->next))
+            return fail(p->r, FAP_E_LIMIT, p->r->bits->at, "P plane",
                         "more different symbols than symbol_memory holds");
     fap_arith_end(&a);
-    return check_bits(r, "arithmetic code");
+    return check_bits(p->r, "arithmetic code");
+}
+
+static int is_next(const plane_reader *p, int param)
+{
+    return p->next < p->end && p->next->param == param;
 }
 
 static int is_out(int32_t select, int32_t max)
@@ -154,55 +177,50 @@ static int is_out(int32_t select, int32_t max)
     return select < 0 || select > max;
 }
 
-static fap_err read_viseme(fba_face_reader *r, fba_face *p, int intra)
+static fap_err read_viseme(plane_reader *p)
 {
-    const fap_err err = read_run(r, p, FBA_VISEME_SELECT1, FBA_EXPRESSION_SELECT1, intra);
+    fap_bits *b = p->r->bits;
+    fba_motion *m = p->motion;
+
+    const fap_err err = read_run(p, FBA_EXPRESSION_SELECT1);
     if (err != FAP_OK)
         return err;
-    p->viseme_def = (uint8_t)fap_bits_get(r->bits, 1);
-    if (is_out(p->value[FBA_VISEME_SELECT1], FAP_VISEME_COUNT) ||
-        is_out(p->value[FBA_VISEME_SELECT2], FAP_VISEME_COUNT))
-        return fail(r, FAP_E_BITSTREAM, r->bits->at, "viseme_select", "no such viseme");
-    return check_bits(r, "viseme_def");
+    m->viseme_def = (uint8_t)fap_bits_get(b, 1);
+    if (is_out(m->value[FBA_VISEME_SELECT1], FAP_VISEME_COUNT) ||
+        is_out(m->value[FBA_VISEME_SELECT2], FAP_VISEME_COUNT))
+        return fail(p->r, FAP_E_BITSTREAM, b->at, "viseme_select", "no such viseme");
+    return check_bits(p->r, "viseme_def");
 }
 
-static fap_err read_expression(fba_face_reader *r, fba_face *p, int intra)
+static fap_err read_expression(plane_reader *p)
 {
-    const fap_err err = read_run(r, p, FBA_EXPRESSION_SELECT1, FBA_FIRST_FAP, intra);
+    fap_bits *b = p->r->bits;
+    fba_motion *m = p->motion;
+
+    const fap_err err = read_run(p, FBA_FIRST_FAP);
     if (err != FAP_OK)
         return err;
-    p->init_face = (uint8_t)fap_bits_get(r->bits, 1);
-    p->expression_def = (uint8_t)fap_bits_get(r->bits, 1);
-    if (is_out(p->value[FBA_EXPRESSION_SELECT1], FAP_EXPRESSION_COUNT) ||
-        is_out(p->value[FBA_EXPRESSION_SELECT2], FAP_EXPRESSION_COUNT))
-        return fail(r, FAP_E_BITSTREAM, r->bits->at, "expression_select", "no such expression");
-    return check_bits(r, "expression_def");
+    m->init_face = (uint8_t)fap_bits_get(b, 1);
+    m->expression_def = (uint8_t)fap_bits_get(b, 1);
+    if (is_out(m->value[FBA_EXPRESSION_SELECT1], FAP_EXPRESSION_COUNT) ||
+        is_out(m->value[FBA_EXPRESSION_SELECT2], FAP_EXPRESSION_COUNT))
+        return fail(p->r, FAP_E_BITSTREAM, b->at, "expression_select", "no such expression");
+    return check_bits(p->r, "expression_def");
 }
 
-static fap_err read_params(fba_face_reader *r, fba_face *p, int intra)
+fap_err fap_fba_face_move(fba_face_reader *r, const fba_coded_list *list, fba_motion *motion, int intra)
 {
+    plane_reader p = { r, motion, list->of, list->of + list->count, intra ? FBA_I : FBA_P };
     fap_err err = FAP_OK;
 
-    if (p->setup.coded[1])
-        err = read_viseme(r, p, intra);
-    if (err == FAP_OK && p->setup.coded[2])
-        err = read_expression(r, p, intra);
+    memset(motion->fap_bits, 0, sizeof motion->fap_bits);
+    if (is_next(&p, FBA_VISEME_SELECT1))
+        err = read_viseme(&p);
+    if (err == FAP_OK && is_next(&p, FBA_EXPRESSION_SELECT1))
+        err = read_expression(&p);
     if (err == FAP_OK)
-        err = read_run(r, p, FBA_FIRST_FAP, FBA_PARAMS, intra);
+        err = read_run(&p, FBA_PARAMS);
     return err;
-}
-
-fap_err fap_fba_face_read(fba_face_reader *r, fba_face *face, int intra)
-{
-    memset(face->fap_bits, 0, sizeof face->fap_bits);
-    if (intra) {
-        for (int param = 0; param < FBA_PARAMS; param++)
-            fap_model_clear(r->pool, &r->model[param]);
-        const fap_err err = read_setup(r, face);
-        if (err != FAP_OK)
-            return err;
-    }
-    return read_params(r, face, intra);
 }
 
 /* --- frames --- */
@@ -212,35 +230,36 @@ static uint8_t clamp_strength(int32_t v)
     return (uint8_t)(v < 0 ? 0 : v > FRAME_STRENGTH_MAX ? FRAME_STRENGTH_MAX : v);
 }
 
-static fap_viseme viseme_of(const fba_face *face)
+static fap_viseme viseme_of(const fba_motion *m)
 {
-    const int32_t *v = face->value;
+    const int32_t *v = m->value;
     return (fap_viseme){ (uint8_t)v[FBA_VISEME_SELECT1], (uint8_t)v[FBA_VISEME_SELECT2],
-                         clamp_strength(v[FBA_VISEME_BLEND]), face->viseme_def };
+                         clamp_strength(v[FBA_VISEME_BLEND]), m->viseme_def };
 }
 
-static fap_expression expression_of(const fba_face *face)
+static fap_expression expression_of(const fba_motion *m)
 {
-    const int32_t *v = face->value;
+    const int32_t *v = m->value;
     return (fap_expression){ (uint8_t)v[FBA_EXPRESSION_SELECT1],
                              clamp_strength(v[FBA_EXPRESSION_INTENSITY1]),
                              (uint8_t)v[FBA_EXPRESSION_SELECT2],
                              clamp_strength(v[FBA_EXPRESSION_INTENSITY2]),
-                             face->init_face,
-                             face->expression_def };
+                             m->init_face,
+                             m->expression_def };
 }
 
 static void show_coded(const fba_face *face, fap_frame *f)
 {
-    for (int fap = 1; fap <= FAP_COUNT; fap++)
-        if (face->setup.coded[fap]) {
-            f->state[fap] = FAP_CODED;
-            f->value[fap] = fap > 2 ? face->value[FBA_FIRST_FAP + fap - 3] : 0;
-        }
+    const fba_motion *m = &face->motion;
+
+    for (const fba_coded *c = face->list.of; c < face->list.of + face->list.count; c++) {
+        f->state[c->fap] = FAP_CODED;
+        f->value[c->fap] = c->fap > 2 ? m->value[c->param] : 0;
+    }
     if (face->setup.coded[1])
-        f->viseme = viseme_of(face);
+        f->viseme = viseme_of(m);
     if (face->setup.coded[2])
-        f->expression = expression_of(face);
+        f->expression = expression_of(m);
 }
 
 static int is_left_to_us(const fba_face *face, int fap)

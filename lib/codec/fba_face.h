@@ -11,12 +11,18 @@
 #include "codec/fba.h"
 #include "codec/models.h"
 
-typedef struct fba_face {
-    int has_ranges; /* the defaults were installed */
-    fba_setup setup;
+/* What every plane changes. */
+typedef struct fba_motion {
     int32_t value[FBA_PARAMS];
     uint8_t viseme_def, init_face, expression_def;
     uint16_t fap_bits[FAP_COUNT + 1]; /* what each took in the last plane */
+} fba_motion;
+
+typedef struct fba_face {
+    int has_ranges; /* the defaults were installed */
+    fba_setup setup;
+    fba_coded_list list; /* of setup */
+    fba_motion motion;
 } fba_face;
 
 /* Where it reads and what it needs; what went wrong, and where. */
@@ -29,8 +35,12 @@ typedef struct fba_face_reader {
     const char *what, *why;
 } fba_face_reader;
 
-/* FAP_OK; FAP_E_BITSTREAM, FAP_E_UNSUPPORTED or FAP_E_LIMIT, and the reader says why. */
-fap_err fap_fba_face_read(fba_face_reader *r, fba_face *face, int intra);
+/*
+ * An I plane sets up the face, any plane moves it. FAP_OK; FAP_E_BITSTREAM, FAP_E_UNSUPPORTED or FAP_E_LIMIT,
+ * and the reader says why.
+ */
+fap_err fap_fba_face_set_up(fba_face_reader *r, fba_face *face);
+fap_err fap_fba_face_move(fba_face_reader *r, const fba_coded_list *list, fba_motion *motion, int intra);
 /* The face in a frame: coded FAPs, and those that the stream leaves to the decoder. Others stay as they are.
  */
 void fap_fba_face_show(const fba_face *face, fap_frame *frame);
