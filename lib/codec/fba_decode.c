@@ -217,6 +217,20 @@ static void show_frame(fap_decoder *d, const plane_header *h)
     d->frame.pts_us = fap_fba_time_us(&d->time);
 }
 
+/* What an I plane sets for itself and those behind it. */
+static void fill_info_of_setup(fap_plane_info *i, const fba_setup *s)
+{
+    i->quant = s->quant;
+    i->gender = s->gender;
+    memcpy(i->mask_type, s->mask_type, sizeof i->mask_type);
+    for (int fap = 3; fap <= FAP_COUNT; fap++) {
+        i->i_min[fap] = s->range[FBA_I][fap].min;
+        i->i_max[fap] = s->range[FBA_I][fap].max;
+        i->p_min[fap] = s->range[FBA_P][fap].min;
+        i->p_max[fap] = s->range[FBA_P][fap].max;
+    }
+}
+
 static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
 {
     fap_plane_info *i = &d->info;
@@ -227,18 +241,11 @@ static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
     i->start_code = (uint8_t)d->plane_code;
     i->has_face = (uint8_t)h->has_face;
     i->has_body = (uint8_t)h->has_body;
-    i->quant = d->face.setup.quant;
-    i->gender = d->face.setup.gender;
-    memcpy(i->mask_type, d->face.setup.mask_type, sizeof i->mask_type);
     i->skipped = h->time.skipped;
-    memcpy(i->fap_bits, d->face.motion.fap_bits, sizeof i->fap_bits);
     i->rate_hz = fap_fba_rate_hz(d->time.rate_16, d->time.offset);
-    for (int fap = 3; fap <= FAP_COUNT; fap++) {
-        i->i_min[fap] = d->face.setup.range[FBA_I][fap].min;
-        i->i_max[fap] = d->face.setup.range[FBA_I][fap].max;
-        i->p_min[fap] = d->face.setup.range[FBA_P][fap].min;
-        i->p_max[fap] = d->face.setup.range[FBA_P][fap].max;
-    }
+    memcpy(i->fap_bits, d->face.motion.fap_bits, sizeof i->fap_bits);
+    if (h->intra && h->has_face)
+        fill_info_of_setup(i, &d->face.setup);
 }
 
 /* Done as soon as the header is known: planes that cannot be decoded take their time all the same. */

@@ -27,6 +27,14 @@ double bench_render_overhead(void);
 /* Frames of 58 FAPs that the .fap reader takes in a second. */
 double bench_ascii_parse_fps(void);
 
+/* Frames of real streams that the FBA codec writes and reads in a second; the same with 58 FAPs in motion. */
+double bench_fba_decode_fps(void);
+double bench_fba_encode_fps(void);
+double bench_fba_decode_fps_58(void);
+double bench_fba_encode_fps_58(void);
+/* What a decoder with default options allocates. */
+double bench_decoder_state_bytes(void);
+
 /* Microseconds a pose takes by each method, and what normals add. */
 double bench_face_ga_us(void);
 double bench_face_qp_us(void);
