@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/*
- * See models.h. Counts accumulate downwards: low of a symbol is the sum of the counts of all symbols above. The
- * upper list is the lower one in a mirror, where symbols and counts run the other way; both are walked by the
- * same code, in numbers of their own side: a symbol's rank is how many symbols lie beyond the other end.
- */
+/* See models.h. Counts accumulate downwards: low of a symbol is the sum of the counts of all symbols above. */
 #include "codec/models.h"
 
 enum { TOTAL_MAX = 16383 };
@@ -30,90 +26,97 @@ static uint16_t new_node(model_pool *pool)
     return pool->used < pool->count ? ++pool->used : 0;
 }
 
+static void free_list(model_pool *pool, uint16_t first)
+{
+    for (uint16_t i = first, next; i; i = next) {
+        next = pool->node[i].next;
+        free_node(pool, i);
+    }
+}
+
 void fap_model_clear(model_pool *pool, model *m)
 {
-    for (int side = 0; side < 2; side++)
-        for (uint16_t i = m->first[side], next; i; i = next) {
-            next = pool->node[i].next;
-            free_node(pool, i);
-        }
+    free_list(pool, m->down);
+    free_list(pool, m->up);
     *m = (model){ 0 };
 }
 
 uint32_t fap_model_total(const model *m, int size)
 {
-    return (uint32_t)size + m->sum[MODEL_DOWN] + m->sum[MODEL_UP];
+    return (uint32_t)size + m->extra;
 }
 
-/* --- where a symbol is --- */
+/* --- to a symbol --- */
 
-typedef struct place {
-    int side, symbol;
-    uint16_t before, node; /* in the list; 0: at its head; not there */
-    uint32_t low, extra;   /* low in numbers of the side */
-} place;
-
-/* Symbol to rank and back. */
-static uint32_t mirrored(int side, int size, uint32_t n)
+static void step_up(model_pool *pool, model *m)
 {
-    return side == MODEL_UP ? n : (uint32_t)size - 1 - n;
+    const uint16_t i = m->up;
+    model_node *n = &pool->node[i];
+
+    m->above = (uint16_t)(m->above - n->extra);
+    m->up = n->next;
+    n->next = m->down;
+    m->down = i;
 }
 
-static place place_of_symbol(const model_pool *pool, const model *m, int size, int symbol)
+static void step_down(model_pool *pool, model *m)
 {
-    const uint16_t up = m->first[MODEL_UP];
-    const int side = up && symbol >= pool->node[up].symbol ? MODEL_UP : MODEL_DOWN;
-    const uint32_t rank = mirrored(side, size, (uint32_t)symbol);
-    uint32_t sum = m->sum[!side];
-    uint16_t before = 0, i = m->first[side];
+    const uint16_t i = m->down;
+    model_node *n = &pool->node[i];
 
-    for (; i && mirrored(side, size, pool->node[i].symbol) < rank; before = i, i = pool->node[i].next)
-        sum += pool->node[i].extra;
-    const int found = i && pool->node[i].symbol == symbol;
-    return (place){ side, symbol, before, found ? i : 0, rank + sum, found ? pool->node[i].extra : 0 };
+    m->above = (uint16_t)(m->above + n->extra);
+    m->down = n->next;
+    n->next = m->up;
+    m->up = i;
 }
 
-static place place_of_target(const model_pool *pool, const model *m, int size, uint32_t target)
+static void seek(model_pool *pool, model *m, int symbol)
 {
-    const uint16_t up = m->first[MODEL_UP];
-    const int side =
-        up && target < (uint32_t)size - pool->node[up].symbol + m->sum[MODEL_UP] ? MODEL_UP : MODEL_DOWN;
-    const uint32_t t = side == MODEL_UP ? fap_model_total(m, size) - 1 - target : target;
-    uint32_t sum = m->sum[!side];
-    uint16_t before = 0;
-
-    for (uint16_t i = m->first[side]; i; before = i, i = pool->node[i].next) {
-        const model_node *n = &pool->node[i];
-        const uint32_t low = mirrored(side, size, n->symbol) + sum;
-        if (t < low)
-            break;
-        if (t <= low + n->extra)
-            return (place){ side, n->symbol, before, i, low, n->extra };
-        sum += n->extra;
-    }
-    return (place){ side, (int)mirrored(side, size, t - sum), before, 0, t, 0 };
+    while (m->up && pool->node[m->up].symbol <= symbol)
+        step_up(pool, m);
+    while (m->down && pool->node[m->down].symbol > symbol)
+        step_down(pool, m);
 }
 
-static arith_interval interval_at(const place *p, uint32_t total)
+/* The first count of a node that is first in the list down; the last one of a node that is first in up. */
+static uint32_t edge(const model_pool *pool, const model *m, int size, uint16_t node)
 {
-    const uint32_t low = p->low, high = low + 1 + p->extra;
-    return p->side == MODEL_UP ? (arith_interval){ total - high, total - low, total }
-                               : (arith_interval){ low, high, total };
+    return (uint32_t)(size - 1 - pool->node[node].symbol) + m->above;
 }
 
-/* --- counting --- */
+/* To the symbol of @p target, which is returned. */
+static int seek_target(model_pool *pool, model *m, int size, uint32_t target)
+{
+    while (m->up && target <= edge(pool, m, size, m->up))
+        step_up(pool, m);
+    while (m->down && target > edge(pool, m, size, m->down) + pool->node[m->down].extra)
+        step_down(pool, m);
+    if (m->down && target >= edge(pool, m, size, m->down))
+        return pool->node[m->down].symbol;
+    return size - 1 - (int)(target - m->above);
+}
+
+/* --- at a symbol --- */
+
+static arith_interval interval_here(const model_pool *pool, const model *m, int size, int symbol)
+{
+    const int is_known = m->down && pool->node[m->down].symbol == symbol;
+    const uint32_t low = (uint32_t)(size - 1 - symbol) + m->above,
+                   extra = is_known ? pool->node[m->down].extra : 0;
+
+    return (arith_interval){ low, low + 1 + extra, fap_model_total(m, size) };
+}
 
 /* Every count becomes half of it, rounded up: what was added, 1 less than the count, half of it rounded down. */
-static void halve(model_pool *pool, model *m, int side)
+static uint16_t halve(model_pool *pool, uint16_t *link)
 {
-    uint16_t *link = &m->first[side];
+    uint16_t sum = 0;
 
-    m->sum[side] = 0;
     while (*link) {
         const uint16_t i = *link;
         model_node *n = &pool->node[i];
         n->extra /= 2;
-        m->sum[side] = (uint16_t)(m->sum[side] + n->extra);
+        sum = (uint16_t)(sum + n->extra);
         if (n->extra) {
             link = &n->next;
         } else {
@@ -121,82 +124,69 @@ static void halve(model_pool *pool, model *m, int side)
             free_node(pool, i);
         }
     }
+    return sum;
 }
 
-static uint16_t insert(model_pool *pool, model *m, const place *p)
+static int insert_here(model_pool *pool, model *m, int symbol)
 {
     const uint16_t i = new_node(pool);
 
     if (i) {
-        uint16_t *link = p->before ? &pool->node[p->before].next : &m->first[p->side];
-        pool->node[i] = (model_node){ (uint16_t)p->symbol, 0, *link };
-        *link = i;
+        pool->node[i] = (model_node){ (uint16_t)symbol, 0, m->down };
+        m->down = i;
     }
-    return i;
+    return i != 0;
 }
 
-/* The first node of @p side goes over when that side stays the heavier one without it. */
-static void balance(model_pool *pool, model *m, int side)
+static int count_here(model_pool *pool, model *m, int size, int symbol)
 {
-    const uint16_t i = m->first[side];
-    model_node *n = &pool->node[i];
-
-    if (m->sum[side] - n->extra <= m->sum[!side])
-        return;
-    m->first[side] = n->next;
-    m->sum[side] = (uint16_t)(m->sum[side] - n->extra);
-    n->next = m->first[!side];
-    m->first[!side] = i;
-    m->sum[!side] = (uint16_t)(m->sum[!side] + n->extra);
-}
-
-static int count_at(model_pool *pool, model *m, const place *p)
-{
-    const uint16_t i = p->node ? p->node : insert(pool, m, p);
-
-    if (!i)
+    if (fap_model_total(m, size) == TOTAL_MAX) {
+        m->above = halve(pool, &m->up);
+        m->extra = (uint16_t)(m->above + halve(pool, &m->down));
+    }
+    if ((!m->down || pool->node[m->down].symbol != symbol) && !insert_here(pool, m, symbol))
         return 0;
-    pool->node[i].extra++;
-    m->sum[p->side]++;
-    balance(pool, m, p->side);
+    pool->node[m->down].extra++;
+    m->extra++;
     return 1;
 }
 
-/* Counts the symbol at @p p, of a table whose counts add up to @p total. */
-static int count(model_pool *pool, model *m, int size, const place *p, uint32_t total)
-{
-    if (total < TOTAL_MAX)
-        return count_at(pool, m, p);
-    halve(pool, m, MODEL_DOWN);
-    halve(pool, m, MODEL_UP);
-    const place moved = place_of_symbol(pool, m, size, p->symbol);
-    return count_at(pool, m, &moved);
-}
+/* --- both --- */
 
 int fap_model_decode(model_pool *pool, model *m, int size, uint32_t target, arith_interval *out)
 {
-    const place p = place_of_target(pool, m, size, target);
+    const int symbol = seek_target(pool, m, size, target);
 
-    *out = interval_at(&p, fap_model_total(m, size));
-    return count(pool, m, size, &p, out->total) ? p.symbol : -1;
+    *out = interval_here(pool, m, size, symbol);
+    return count_here(pool, m, size, symbol) ? symbol : -1;
 }
 
 int fap_model_encode(model_pool *pool, model *m, int size, int symbol, arith_interval *out)
 {
-    const place p = place_of_symbol(pool, m, size, symbol);
-
-    *out = interval_at(&p, fap_model_total(m, size));
-    return count(pool, m, size, &p, out->total);
-}
-
-arith_interval fap_model_interval(const model_pool *pool, const model *m, int size, int symbol)
-{
-    const place p = place_of_symbol(pool, m, size, symbol);
-    return interval_at(&p, fap_model_total(m, size));
+    seek(pool, m, symbol);
+    *out = interval_here(pool, m, size, symbol);
+    return count_here(pool, m, size, symbol);
 }
 
 int fap_model_count(model_pool *pool, model *m, int size, int symbol)
 {
-    arith_interval unused;
-    return fap_model_encode(pool, m, size, symbol, &unused);
+    seek(pool, m, symbol);
+    return count_here(pool, m, size, symbol);
+}
+
+/* What seek() would do to a copy of the model, without moving nodes. */
+arith_interval fap_model_interval(const model_pool *pool, const model *m, int size, int symbol)
+{
+    uint32_t low = (uint32_t)(size - 1 - symbol) + m->above, extra = 0;
+    uint16_t i;
+
+    for (i = m->up; i && pool->node[i].symbol <= symbol; i = pool->node[i].next) {
+        extra = pool->node[i].symbol == symbol ? pool->node[i].extra : 0;
+        low -= pool->node[i].extra;
+    }
+    for (i = m->down; i && pool->node[i].symbol > symbol; i = pool->node[i].next)
+        low += pool->node[i].extra;
+    if (i && pool->node[i].symbol == symbol)
+        extra = pool->node[i].extra;
+    return (arith_interval){ low, low + 1 + extra, fap_model_total(m, size) };
 }

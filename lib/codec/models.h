@@ -15,14 +15,12 @@ typedef struct model_node {
 } model_node;
 
 /*
- * The nodes of a table, in two lists that begin where half of the counts lie on either side and lead away from
- * there: what is frequent is found in a step or two. All 0: every symbol counts 1.
+ * The nodes of a table, in two lists that lead away from the symbol coded last: what comes next is seldom far from
+ * it. All 0: every symbol counts 1.
  */
-enum { MODEL_DOWN, MODEL_UP };
-
 typedef struct model {
-    uint16_t first[2]; /* nodes; 0: none */
-    uint16_t sum[2];   /* of extra */
+    uint16_t down, up;     /* the nearest nodes: of the symbol or a lower one, of a higher one; 0: none */
+    uint16_t above, extra; /* sums of extra: over the list up, over both */
 } model;
 
 typedef struct model_pool {
