@@ -147,6 +147,12 @@ demo: setup        ## a spoken sentence, from optical markers to a film: build/d
 	$(Q)B=$(B) scripts/demo
 
 BENCH_SRC := $(wildcard tests/bench/*.c)
+# How small the decoder is, here and on 64-bit Arm.
+ARM64_CC  ?= aarch64-linux-gnu-gcc
+$(B)/gen/decoder_size.h: scripts/decoder_size include/fap/decoder.h $(B)/libfap.a
+	$(Q)size() { scripts/decoder_size $$1 $(filter-out -M%,$(FAP_CFLAGS)); }; \
+	    echo "enum { DECODER_SIZE = $$(size "$(CC)"), DECODER_SIZE_ARM64 = $$(size "$(ARM64_CC)") };" >$@
+$(B)/tests/bench/fba.o: $(B)/gen/decoder_size.h
 $(B)/bench: $(call obj,$(BENCH_SRC)) $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)

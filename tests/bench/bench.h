@@ -34,6 +34,7 @@ double bench_fba_decode_fps_58(void);
 double bench_fba_encode_fps_58(void);
 /* What a decoder with default options allocates. */
 double bench_decoder_state_bytes(void);
+double bench_libfap_text_bytes(void);
 
 /* Microseconds a pose takes by each method, and what normals add. */
 double bench_face_ga_us(void);
