@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /** @file
- * FAPs that were not sent, derived from those that were: the other side of the face, the other lip contour.
+ * FAPs that were not sent, derived from those that were: what an interpolation table gives, the other lip
+ * contour, the other side of the face.
  * Source: ISO/IEC 14496-2, FAP interpolation; fap_tables/pairs.csv.
  */
 #ifndef FAP_DERIVE_H
 #define FAP_DERIVE_H
 
+#include <fap/fit.h>
 #include <fap/frame.h>
 
 #ifdef __cplusplus
@@ -17,6 +19,8 @@ extern "C" {
  * FAPs that are coded, held or already derived keep their value. Idempotent.
  */
 FAP_API void fap_derive(fap_frame *frame);
+/** The same, with what the table @p fit gives before all else. NULL: fap_derive(). */
+FAP_API void fap_derive_with(const fap_fit *fit, fap_frame *frame);
 
 #ifdef __cplusplus
 }

@@ -212,7 +212,7 @@ static void show_frame(fap_decoder *d, const plane_header *h)
 {
     hold_all(&d->frame);
     if (h->has_face)
-        fap_fba_face_show(&d->face, &d->frame);
+        fap_fba_face_show(&d->face, d->cfg.fit, &d->frame);
     d->frame.number = d->time.number;
     d->frame.pts_us = fap_fba_time_us(&d->time);
 }

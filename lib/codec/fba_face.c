@@ -276,14 +276,14 @@ static int leaves_any_to_us(const fba_face *face)
 }
 
 /* Mask type 2: the decoder finds the values. Those it cannot find stay held. */
-static void show_interpolated(const fba_face *face, fap_frame *f)
+static void show_interpolated(const fba_face *face, const fap_fit *fit, fap_frame *f)
 {
     fap_frame derived = *f;
 
     for (int fap = 3; fap <= FAP_COUNT; fap++)
         if (is_left_to_us(face, fap))
             derived.state[fap] = FAP_ABSENT;
-    fap_derive(&derived);
+    fap_derive_with(fit, &derived);
     for (int fap = 3; fap <= FAP_COUNT; fap++)
         if (is_left_to_us(face, fap) && derived.state[fap] == FAP_DERIVED) {
             f->state[fap] = FAP_DERIVED;
@@ -291,9 +291,9 @@ static void show_interpolated(const fba_face *face, fap_frame *f)
         }
 }
 
-void fap_fba_face_show(const fba_face *face, fap_frame *frame)
+void fap_fba_face_show(const fba_face *face, const fap_fit *fit, fap_frame *frame)
 {
     show_coded(face, frame);
     if (leaves_any_to_us(face)) /* rare, and most of the time of a plane when done for nothing */
-        show_interpolated(face, frame);
+        show_interpolated(face, fit, frame);
 }

@@ -7,6 +7,7 @@
 #define LIB_CODEC_FBA_FACE_H
 
 #include <fap/error.h>
+#include <fap/fit.h>
 
 #include "codec/fba.h"
 #include "codec/models.h"
@@ -41,8 +42,8 @@ typedef struct fba_face_reader {
  */
 fap_err fap_fba_face_set_up(fba_face_reader *r, fba_face *face);
 fap_err fap_fba_face_move(fba_face_reader *r, const fba_coded_list *list, fba_motion *motion, int intra);
-/* The face in a frame: coded FAPs, and those that the stream leaves to the decoder. Others stay as they are.
- */
-void fap_fba_face_show(const fba_face *face, fap_frame *frame);
+/* The face in a frame: coded FAPs, and those that the stream leaves to the decoder, by @p fit (or NULL) first.
+ * Others stay as they are. */
+void fap_fba_face_show(const fba_face *face, const fap_fit *fit, fap_frame *frame);
 
 #endif

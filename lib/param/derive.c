@@ -19,6 +19,12 @@ static void fill_from(fap_frame *frame, int (*partner)(int fap))
 
 void fap_derive(fap_frame *frame)
 {
+    fap_derive_with(NULL, frame);
+}
+
+void fap_derive_with(const fap_fit *fit, fap_frame *frame)
+{
+    fap_fit_apply(fit, frame);
     fill_from(frame, fap_lip_pair);
     fill_from(frame, fap_mirror);
 }

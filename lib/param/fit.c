@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * FAP interpolation tables: making and applying them. See fit.h for what they hold.
+ * Only + - * / on doubles, in the order of the table: every machine gives the same values.
+ * Source: ISO/IEC 14496-1, FIT node; US patent 6130679 (expired) prints the formula with its impulses.
+ */
+#include <string.h>
+
+#include "base/mem.h"
+#include "param/fit.h"
+
+static const double smallest_denominator = 1e-9;
+static const double largest_double = 1.7976931348623157e308;
+static const int32_t value_limit = 1 << 30;
+
+/* --- numbers --- */
+
+static double power_of_ten(int n)
+{
+    double p = 1;
+    while (n-- > 0)
+        p *= 10;
+    return p;
+}
+
+double fap_fit_value(fit_number n)
+{
+    const double digits = (double)n.digits;
+    return n.power >= 0 ? digits * power_of_ten(n.power) : digits / power_of_ten(-n.power);
+}
+
+int fap_fit_normal(fit_number *n)
+{
+    if (!n->digits)
+        n->power = 0;
+    while (n->digits && n->digits % 10 == 0) {
+        n->digits /= 10;
+        n->power++;
+    }
+    return n->power >= -FIT_POWER_MAX && n->power <= FIT_POWER_MAX;
+}
+
+static int64_t round_to_integer(double v)
+{
+    const int64_t whole = (int64_t)v;
+    const double rest = v - (double)whole;
+    return rest >= 0.5 ? whole + 1 : rest <= -0.5 ? whole - 1 : whole;
+}
+
+int fap_fit_round(double v, int digits, fit_number *n)
+{
+    const double top = power_of_ten(digits), size = v < 0 ? -v : v;
+    int power = 0;
+
+    *n = (fit_number){ 0, 0 };
+    if (!(size <= 1e36))
+        return 0;
+    if (size < 1e-36)
+        return size == 0;
+    /* One scaling by an exact power: the digits are right but for ties that are none in the double either. */
+    while (power < 40 && size / power_of_ten(power) >= top)
+        power++;
+    while (power > -40 && size * power_of_ten(-power) < top / 10)
+        power--;
+    n->digits = round_to_integer(power >= 0 ? v / power_of_ten(power) : v * power_of_ten(-power));
+    n->power = power;
+    return fap_fit_normal(n);
+}
+
+/* --- names --- */
+
+static const char *const part_names[FIT_SOURCE_END - FIT_VISEME_SELECT1] = {
+    "viseme_select1",        "viseme_select2",     "viseme_blend",          "expression_select1",
+    "expression_intensity1", "expression_select2", "expression_intensity2",
+};
+
+const char *fap_fit_source_name(int source, char buf[8])
+{
+    char *p = buf;
+
+    if (source >= FIT_VISEME_SELECT1)
+        return part_names[source - FIT_VISEME_SELECT1];
+    *p++ = 'f';
+    if (source >= 10)
+        *p++ = (char)('0' + source / 10);
+    *p++ = (char)('0' + source % 10);
+    *p = '\0';
+    return buf;
+}
+
+int fap_fit_part_by_name(const char *name)
+{
+    for (int i = 0; i < FIT_SOURCE_END - FIT_VISEME_SELECT1; i++)
+        if (!strcmp(part_names[i], name))
+            return FIT_VISEME_SELECT1 + i;
+    return 0;
+}
+
+/* --- making --- */
+
+fap_err fap_fit_add_edge(fit_builder *b)
+{
+    if (b->edges == FAP_FIT_MAX_EDGES)
+        return FAP_E_LIMIT;
+    b->edge = (fit_edge){ .first = (uint32_t)b->rules };
+    b->edges++;
+    return FAP_OK;
+}
+
+void fap_fit_add_source(fit_builder *b, int source)
+{
+    fit_set_add(&b->edge.sources, source);
+    if (b->fit)
+        b->fit->edge[b->edges - 1] = b->edge;
+}
+
+fap_err fap_fit_add_rule(fit_builder *b, int target)
+{
+    if (b->rules == FAP_FIT_MAX_FORMULAS)
+        return FAP_E_LIMIT;
+    b->rule = (fit_rule){ .first = (uint32_t)b->terms, .target = (uint8_t)target };
+    b->rules++;
+    b->edge.rules++;
+    fit_set_add(&b->edge.targets, target);
+    if (b->fit) {
+        b->fit->edge[b->edges - 1] = b->edge;
+        b->fit->rule[b->rules - 1] = b->rule;
+        fit_set_add(&b->fit->targets, target);
+    }
+    return FAP_OK;
+}
+
+static void store_term(fit_builder *b)
+{
+    if (b->fit)
+        b->fit->term[b->terms - 1] = b->term;
+}
+
+fap_err fap_fit_add_term(fit_builder *b, int part, fit_number coefficient)
+{
+    if (b->terms == FAP_FIT_MAX_TERMS)
+        return FAP_E_LIMIT;
+    b->term = (fit_term){ .coefficient = fap_fit_value(coefficient),
+                          .written = coefficient,
+                          .first = (uint32_t)b->factors };
+    b->terms++;
+    b->rule.terms[part]++;
+    if (b->fit)
+        b->fit->rule[b->rules - 1] = b->rule;
+    store_term(b);
+    return FAP_OK;
+}
+
+static fit_factor *find_factor(fit_builder *b, int source)
+{
+    for (int i = 0; i < b->term.factors; i++)
+        if (b->last[i].source == source)
+            return &b->last[i];
+    return NULL;
+}
+
+/* A source named twice is one factor: there is one way to hold a product. */
+fap_err fap_fit_add_factor(fit_builder *b, int source, unsigned exponent)
+{
+    fit_factor *f = find_factor(b, source);
+
+    if (exponent > FAP_FIT_MAX_EXPONENT || (f && f->exponent + exponent > FAP_FIT_MAX_EXPONENT))
+        return FAP_E_LIMIT;
+    if (!exponent)
+        return FAP_OK;
+    if (!f) {
+        if (b->factors == FAP_FIT_MAX_FACTORS)
+            return FAP_E_LIMIT;
+        f = &b->last[b->term.factors++];
+        *f = (fit_factor){ (uint8_t)source, 0 };
+        b->factors++;
+        store_term(b);
+    }
+    f->exponent = (uint8_t)(f->exponent + exponent);
+    if (b->fit)
+        b->fit->factor[b->term.first + (size_t)(f - b->last)] = *f;
+    return FAP_OK;
+}
+
+void fap_fit_add_guard(fit_builder *b, int source, int32_t equals)
+{
+    b->term.guard = (uint8_t)source;
+    b->term.equals = equals;
+    store_term(b);
+}
+
+/* One block: the members in falling order of alignment. */
+static fap_fit *new_table(const fit_builder *b, const fap_allocator *alloc)
+{
+    const size_t edges = b->edges * sizeof(fit_edge), terms = b->terms * sizeof(fit_term),
+                 rules = b->rules * sizeof(fit_rule), factors = b->factors * sizeof(fit_factor);
+    fap_fit *t = fap_mem_calloc(alloc, 1, sizeof *t + edges + terms + rules + factors);
+
+    if (!t)
+        return NULL;
+    t->alloc = *alloc;
+    t->edge_count = b->edges;
+    t->rule_count = b->rules;
+    t->term_count = b->terms;
+    t->factor_count = b->factors;
+    char *at = (char *)(t + 1);
+    t->edge = (void *)at;
+    t->term = (void *)(at += edges);
+    t->rule = (void *)(at += terms);
+    t->factor = (void *)(at + rules);
+    return t;
+}
+
+fap_err fap_fit_build(fap_fit **fit, fap_err (*describe)(fit_builder *b, void *user), void *user,
+                      const fap_allocator *alloc)
+{
+    const fap_allocator a = fap_mem_allocator(alloc);
+    fit_builder count = { 0 }, store = { 0 };
+
+    *fit = NULL;
+    fap_err err = describe(&count, user);
+    if (err != FAP_OK)
+        return err;
+    store.fit = new_table(&count, &a);
+    if (!store.fit)
+        return FAP_E_NOMEM;
+    err = describe(&store, user);
+    if (err == FAP_OK)
+        *fit = store.fit;
+    else
+        fap_mem_free(&a, store.fit);
+    return err;
+}
+
+void fap_fit_close(fap_fit **fit)
+{
+    if (!fit || !*fit)
+        return;
+    const fap_allocator alloc = (*fit)->alloc;
+    fap_mem_free(&alloc, *fit);
+    *fit = NULL;
+}
+
+/* --- applying --- */
+
+int fap_fit_gives(const fap_fit *fit, int fap)
+{
+    return fit && fap >= 1 && fap <= FAP_COUNT && fit_set_has(&fit->targets, fap);
+}
+
+static fit_set known_sources(const fap_frame *f)
+{
+    fit_set known = { { 0, 0 } };
+
+    for (int fap = 3; fap <= FAP_COUNT; fap++)
+        if (f->state[fap] != FAP_ABSENT)
+            fit_set_add(&known, fap);
+    for (int part = FIT_VISEME_SELECT1; part < FIT_SOURCE_END; part++)
+        if (f->state[part < FIT_EXPRESSION_SELECT1 ? 1 : 2] != FAP_ABSENT)
+            fit_set_add(&known, part);
+    return known;
+}
+
+static int32_t source_value(const fap_frame *f, int source)
+{
+    switch (source) {
+    case FIT_VISEME_SELECT1: return f->viseme.select1;
+    case FIT_VISEME_SELECT2: return f->viseme.select2;
+    case FIT_VISEME_BLEND: return f->viseme.blend;
+    case FIT_EXPRESSION_SELECT1: return f->expression.select1;
+    case FIT_EXPRESSION_INTENSITY1: return f->expression.intensity1;
+    case FIT_EXPRESSION_SELECT2: return f->expression.select2;
+    case FIT_EXPRESSION_INTENSITY2: return f->expression.intensity2;
+    default: return f->value[source];
+    }
+}
+
+static double term_value(const fap_fit *t, const fit_term *term, const fap_frame *f)
+{
+    double v = term->coefficient;
+
+    if (term->guard && source_value(f, term->guard) != term->equals)
+        return 0;
+    for (const fit_factor *x = t->factor + term->first, *end = x + term->factors; x < end; x++) {
+        const double source = source_value(f, x->source);
+        for (int i = 0; i < x->exponent; i++)
+            v *= source;
+    }
+    return v;
+}
+
+static double sum_of_terms(const fap_fit *t, const fit_term *term, int count, const fap_frame *f)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += term_value(t, &term[i], f);
+    return sum;
+}
+
+static int is_finite(double v)
+{
+    return v >= -largest_double && v <= largest_double;
+}
+
+static int32_t value_of(double v)
+{
+    return v >= value_limit ? value_limit : v <= -value_limit ? -value_limit : (int32_t)round_to_integer(v);
+}
+
+/* 0: the formula has no value for these sources. */
+static int evaluate(const fap_fit *t, const fit_rule *r, const fap_frame *f, int32_t *value)
+{
+    const fit_term *term = t->term + r->first;
+    const double n = sum_of_terms(t, term, r->terms[FIT_NUMERATOR], f);
+    double d = 1;
+
+    if (r->terms[FIT_DENOMINATOR])
+        d = sum_of_terms(t, term + r->terms[FIT_NUMERATOR], r->terms[FIT_DENOMINATOR], f);
+    if (!is_finite(n) || !is_finite(d) || (d < smallest_denominator && d > -smallest_denominator))
+        return 0;
+    *value = value_of(n / d);
+    return 1;
+}
+
+static int follow(const fap_fit *t, const fit_edge *e, fap_frame *f, fit_set *known)
+{
+    int given = 0;
+
+    for (const fit_rule *r = t->rule + e->first, *end = r + e->rules; r < end; r++) {
+        int32_t value;
+        if (fit_set_has(known, r->target) || !evaluate(t, r, f, &value))
+            continue;
+        f->value[r->target] = value;
+        f->state[r->target] = FAP_DERIVED;
+        fit_set_add(known, r->target);
+        given = 1;
+    }
+    return given;
+}
+
+/* Known FAPs never change: an edge once followed has nothing more to give, in this call or in the next. */
+void fap_fit_apply(const fap_fit *fit, fap_frame *frame)
+{
+    uint8_t followed[FAP_FIT_MAX_EDGES] = { 0 };
+    int given = 1;
+
+    if (!fit || !frame)
+        return;
+    fit_set known = known_sources(frame);
+    while (given && fit_set_lacks(&fit->targets, &known)) {
+        given = 0;
+        for (size_t i = 0; i < fit->edge_count; i++) {
+            const fit_edge *const e = &fit->edge[i];
+            if (followed[i] || fit_set_lacks(&e->sources, &known))
+                continue;
+            followed[i] = 1;
+            given |= follow(fit, e, frame, &known);
+        }
+    }
+}
