@@ -127,17 +127,21 @@ static void emit(arith_encoder *a, int n, uint32_t v)
     }
 }
 
-/* The first of @p n bits decides those that are pending. */
+/* @p n bits of @p v, 1 to 16; behind the first come as many of its opposite as are pending. */
 static void emit_with_pending(arith_encoder *a, int n, uint32_t v)
 {
-    const uint32_t first = v >> (n - 1) & 1;
+    const uint32_t first = v >> (n - 1) & 1, rest = v & ((1u << (n - 1)) - 1);
 
-    emit(a, 1, first);
-    for (; a->pending > CODE_BITS; a->pending--)
-        emit(a, 1, !first);
-    emit(a, (int)a->pending, first ? 0 : (1u << a->pending) - 1);
+    if (a->pending < CODE_BITS) {
+        const uint32_t head = first ? 1u << a->pending : (1u << a->pending) - 1;
+        emit(a, a->pending + n, head << (n - 1) | rest);
+    } else {
+        emit(a, 1, first);
+        for (int i = 0; i < a->pending; i++)
+            emit(a, 1, !first);
+        emit(a, n - 1, rest);
+    }
     a->pending = 0;
-    emit(a, n - 1, v & ((1u << (n - 1)) - 1));
 }
 
 void fap_arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits)
@@ -153,7 +157,7 @@ void fap_arith_encoder_put(arith_encoder *a, arith_interval i)
 
     if (g.same)
         emit_with_pending(a, g.same, low >> (CODE_BITS - g.same));
-    a->pending += (unsigned)g.across;
+    a->pending += g.across;
     a->low = grown_low(low, g);
     a->span = (end - start) << (g.same + g.across);
 }

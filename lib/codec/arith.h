@@ -38,7 +38,7 @@ typedef struct arith_encoder {
     fap_bit_writer *bits;
     uint32_t low, span; /* the interval */
     int zeros;
-    unsigned pending; /* bits that will be the opposite of the next one */
+    int pending; /* bits that will be the opposite of the next one */
 } arith_encoder;
 
 void fap_arith_encoder_begin(arith_encoder *a, fap_bit_writer *bits);

@@ -192,10 +192,23 @@ typedef struct run {
     arith_interval i[MAX_RUN];
 } run;
 
+/* The middle third again and again: no bit is decided before the end. */
+static run undecided_run(int count)
+{
+    run r = { .count = count };
+
+    for (int k = 0; k < r.count; k++)
+        r.i[k] = (arith_interval){ 1, 2, 3 };
+    return r;
+}
+
 /* Narrow or wide intervals; many that begin at 0, which make long rows of 0 bits. */
 static run random_run(uint32_t *seed)
 {
     run r = { .count = (int)(draw(seed) % MAX_RUN) };
+
+    if (draw(seed) % 16 == 0)
+        return undecided_run(r.count);
 
     for (int k = 0; k < r.count; k++) {
         const uint32_t total = 1 + draw(seed) % 16383, low = draw(seed) % 3 ? 0 : draw(seed) % total;
@@ -464,6 +477,33 @@ TEST(bits, any_width_at_any_place_reads_like_single_bits)
                     want = want << 1 | (k < b.end ? data[k / 8] >> (7 - k % 8) & 1u : 0);
                 assert_int_equal(fap_bits_peek(&b, at, n), want);
             }
+    }
+}
+
+/* Into rooms of all sizes, with what is written across the end. */
+TEST(bits, any_width_is_put_like_single_bits)
+{
+    uint32_t seed = 23;
+
+    for (int i = 0; i < 2000; i++) {
+        uint8_t data[2][24];
+        fap_bit_writer w[2];
+        const size_t room = draw(&seed) % sizeof data[0];
+        for (int k = 0; k < 2; k++) {
+            memset(data[k], k ? 0x55 : 0xAA, sizeof data[k]);
+            fap_bit_writer_init(&w[k], data[k], room);
+        }
+        for (int puts = 0; puts < 12; puts++) {
+            const int n = (int)(draw(&seed) % 33);
+            const uint32_t value = draw(&seed) << 16 ^ draw(&seed);
+            fap_bits_put(&w[0], n, value);
+            for (int bit = n - 1; bit >= 0; bit--)
+                fap_bits_put(&w[1], 1, value >> bit & 1);
+        }
+        assert_int_equal(w[0].at, w[1].at);
+        assert_int_equal(w[0].full, w[1].full);
+        assert_memory_equal(data[0], data[1], (size_t)(w[0].at + 7) / 8);
+        assert_true(room == sizeof data[0] || data[0][room] == 0xAA);
     }
 }
 

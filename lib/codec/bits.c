@@ -60,21 +60,42 @@ void fap_bit_writer_init(fap_bit_writer *w, uint8_t *data, size_t room)
     *w = (fap_bit_writer){ .data = data, .room = room };
 }
 
-/* What of the last byte is not yet written is 0, so that pieces can be joined. */
+static void put_word(uint8_t *p, uint64_t v)
+{
+    p[0] = (uint8_t)(v >> 56);
+    p[1] = (uint8_t)(v >> 48);
+    p[2] = (uint8_t)(v >> 40);
+    p[3] = (uint8_t)(v >> 32);
+    p[4] = (uint8_t)(v >> 24);
+    p[5] = (uint8_t)(v >> 16);
+    p[6] = (uint8_t)(v >> 8);
+    p[7] = (uint8_t)v;
+}
+
+/* Where there is no room for a word. */
+static void put_bitwise(fap_bit_writer *w, int n, uint32_t value)
+{
+    for (; n > 0 && w->at / 8 < w->room; n--, w->at++) {
+        uint8_t *byte = &w->data[w->at / 8];
+        const int used = (int)(w->at % 8);
+        *byte = (uint8_t)((*byte & 0xff00 >> used) | (value >> (n - 1) & 1) << (7 - used));
+    }
+    w->full |= n > 0;
+}
+
+/* Behind what is put the rest of a word becomes 0. */
 void fap_bits_put(fap_bit_writer *w, int n, uint32_t value)
 {
-    while (n > 0) {
-        const size_t byte = (size_t)(w->at / 8);
-        const int used = (int)(w->at % 8), take = n < 8 - used ? n : 8 - used;
-        if (byte >= w->room) {
-            w->full = 1;
-            return;
-        }
-        n -= take;
-        const unsigned before = used ? w->data[byte] : 0, piece = value >> n & ((1u << take) - 1);
-        w->data[byte] = (uint8_t)(before | piece << (8 - used - take));
-        w->at += (uint64_t)take;
+    const uint64_t byte = w->at / 8, used = w->at % 8;
+
+    if (byte + 8 > w->room) {
+        put_bitwise(w, n, value);
+        return;
     }
+    const uint64_t before = (uint64_t)(w->data[byte] & 0xff00 >> used)
+                            << 56; /* 0xff00: its low byte counts */
+    put_word(w->data + byte, before | (uint64_t)value << (63 - n) << 1 >> used); /* n may be 0 */
+    w->at += (uint64_t)n;
 }
 
 void fap_bits_put_stuffing(fap_bit_writer *w)
