@@ -56,7 +56,13 @@ FAP_API void fap_encoder_config_init(fap_encoder_config *cfg);
 typedef struct fap_encoder_stats {
     int64_t frames, intra_frames, bytes;
     int64_t
-        clipped; /**< values beyond what a plane can carry (1860 levels / fap_quant): later planes catch up */
+        clipped; /**< values beyond what a plane can carry (1860 levels / fap_quant, or its symbol range): later
+                      planes catch up */
+    int64_t skipped;             /**< of frames: left out, the decoder shows the one before */
+    int64_t derived;             /**< values left to the decoder */
+    int64_t largest_window_bits; /**< of any 2 s of media time, start codes, stuffing and end code included */
+    double mean_error_mm; /**< over all places commanded in all frames, see fap_sensitivity_compare() */
+    double max_error_mm;
 } fap_encoder_stats;
 
 /** @return FAP_OK; FAP_E_ARG; FAP_E_NOMEM. @p cfg NULL: defaults. *encoder is NULL unless FAP_OK. */
