@@ -200,7 +200,7 @@ static void show_coded(fap_encoder *e, int intra)
         derives |= e->face.setup.mask_type[group] == FBA_MASK_INTERPOLATE;
     if (intra || derives)
         hold_all(&e->shown_now);
-    fap_fba_face_show(&e->face, &e->shown_now);
+    fap_fba_face_show(&e->face, e->cfg.fit, &e->shown_now);
     for (int fap = 3; derives && fap <= FAP_COUNT; fap++)
         e->stats.derived += e->shown_now.state[fap] == FAP_DERIVED;
 }
