@@ -14,6 +14,7 @@
 #include <fap/error.h>
 #include <fap/frame.h>
 #include <fap/io.h>
+#include <fap/sensitivity.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -98,6 +99,39 @@ FAP_API int fap_fit_gives(const fap_fit *fit, int fap);
  * next edge, where the denominator is within +-1e-9 or either sum is not finite.
  */
 FAP_API void fap_fit_apply(const fap_fit *fit, fap_frame *frame);
+/** What fap_fit_learn() looks for; start from fap_fit_learn_config_init(). */
+typedef struct fap_fit_learn_config {
+    size_t struct_size; /**< sizeof of this struct, set by init */
+    /** 200000; nanometres by which a FAP that is left out may miss, by @c sensitivity. FAPs that move nothing may
+     * miss by their quantiser step. */
+    uint32_t error_nm;
+    const fap_sensitivity *sensitivity; /**< NULL: a typical face */
+    /** NULL; otherwise FAP_COUNT + 1 numbers: by how many of its own units each FAP may miss. The two above then
+     * mean nothing. */
+    const uint32_t *error;
+    int exceptions; /**< 0; in how many of 1000 frames it may miss by more, 0 to 1000 */
+    int quant; /**< 1; sources are taken as this fap_quant makes them, 0 (exact) to 31: formulas that would blow up
+                    their rounding are not found */
+    int terms; /**< 4; of a formula at most, 1 to 8 */
+    fap_allocator alloc;
+} fap_fit_learn_config;
+
+/** Sets every default. */
+FAP_API void fap_fit_learn_config_init(fap_fit_learn_config *cfg);
+
+/**
+ * Find FAPs that a take need not carry, since few of those that it goes on carrying give them: an empty table when
+ * there are none. Formulas are polynomials of degree 1 or 2 without mixed terms, found by least squares and pushed
+ * towards the smallest largest error; coefficients have as few digits as that allows. No FAP is both given and a
+ * source. Only FAPs known in every frame take part, FAPs 1 and 2 do not.
+ *
+ * @param frames  the take; FAPs of any state but FAP_ABSENT count
+ * @param cfg     NULL: defaults
+ * @return FAP_OK; FAP_E_ARG; FAP_E_NOMEM. *fit is NULL unless FAP_OK.
+ */
+FAP_API FAP_NODISCARD fap_err fap_fit_learn(fap_fit **fit, const fap_frame *frames, size_t count,
+                                            const fap_fit_learn_config *cfg);
+
 /** Sets @p *fit to NULL; accepts NULL. */
 FAP_API void fap_fit_close(fap_fit **fit);
 

@@ -248,52 +248,60 @@ int fap_fit_gives(const fap_fit *fit, int fap)
     return fit && fap >= 1 && fap <= FAP_COUNT && fit_set_has(&fit->targets, fap);
 }
 
-static fit_set known_sources(const fap_frame *f)
-{
-    fit_set known = { { 0, 0 } };
+/* A frame as formulas read it. */
+typedef struct fit_sources {
+    fit_set known;
+    double value[FIT_SOURCE_END];
+} fit_sources;
 
-    for (int fap = 3; fap <= FAP_COUNT; fap++)
-        if (f->state[fap] != FAP_ABSENT)
-            fit_set_add(&known, fap);
+static void read_parts(fit_sources *s, const fap_frame *f)
+{
+    const fap_viseme *const v = &f->viseme;
+    const fap_expression *const e = &f->expression;
+
+    s->value[FIT_VISEME_SELECT1] = v->select1;
+    s->value[FIT_VISEME_SELECT2] = v->select2;
+    s->value[FIT_VISEME_BLEND] = v->blend;
+    s->value[FIT_EXPRESSION_SELECT1] = e->select1;
+    s->value[FIT_EXPRESSION_INTENSITY1] = e->intensity1;
+    s->value[FIT_EXPRESSION_SELECT2] = e->select2;
+    s->value[FIT_EXPRESSION_INTENSITY2] = e->intensity2;
     for (int part = FIT_VISEME_SELECT1; part < FIT_SOURCE_END; part++)
         if (f->state[part < FIT_EXPRESSION_SELECT1 ? 1 : 2] != FAP_ABSENT)
-            fit_set_add(&known, part);
-    return known;
+            fit_set_add(&s->known, part);
 }
 
-static int32_t source_value(const fap_frame *f, int source)
+static void read_sources(fit_sources *s, const fap_frame *f)
 {
-    switch (source) {
-    case FIT_VISEME_SELECT1: return f->viseme.select1;
-    case FIT_VISEME_SELECT2: return f->viseme.select2;
-    case FIT_VISEME_BLEND: return f->viseme.blend;
-    case FIT_EXPRESSION_SELECT1: return f->expression.select1;
-    case FIT_EXPRESSION_INTENSITY1: return f->expression.intensity1;
-    case FIT_EXPRESSION_SELECT2: return f->expression.select2;
-    case FIT_EXPRESSION_INTENSITY2: return f->expression.intensity2;
-    default: return f->value[source];
-    }
+    uint64_t low = 0, high = 0;
+
+    for (int fap = 3; fap < 64; fap++)
+        low |= (uint64_t)(f->state[fap] != FAP_ABSENT) << fap;
+    for (int fap = 64; fap <= FAP_COUNT; fap++)
+        high |= (uint64_t)(f->state[fap] != FAP_ABSENT) << (fap - 64);
+    for (int fap = 3; fap <= FAP_COUNT; fap++)
+        s->value[fap] = f->value[fap];
+    s->known = (fit_set){ { low, high } };
+    read_parts(s, f);
 }
 
-static double term_value(const fap_fit *t, const fit_term *term, const fap_frame *f)
+static double term_value(const fap_fit *t, const fit_term *term, const fit_sources *s)
 {
     double v = term->coefficient;
 
-    if (term->guard && source_value(f, term->guard) != term->equals)
+    if (term->guard && s->value[term->guard] != term->equals)
         return 0;
-    for (const fit_factor *x = t->factor + term->first, *end = x + term->factors; x < end; x++) {
-        const double source = source_value(f, x->source);
+    for (const fit_factor *x = t->factor + term->first, *end = x + term->factors; x < end; x++)
         for (int i = 0; i < x->exponent; i++)
-            v *= source;
-    }
+            v *= s->value[x->source];
     return v;
 }
 
-static double sum_of_terms(const fap_fit *t, const fit_term *term, int count, const fap_frame *f)
+static double sum_of_terms(const fap_fit *t, const fit_term *term, int count, const fit_sources *s)
 {
     double sum = 0;
     for (int i = 0; i < count; i++)
-        sum += term_value(t, &term[i], f);
+        sum += term_value(t, &term[i], s);
     return sum;
 }
 
@@ -308,31 +316,32 @@ static int32_t value_of(double v)
 }
 
 /* 0: the formula has no value for these sources. */
-static int evaluate(const fap_fit *t, const fit_rule *r, const fap_frame *f, int32_t *value)
+static int evaluate(const fap_fit *t, const fit_rule *r, const fit_sources *s, int32_t *value)
 {
     const fit_term *term = t->term + r->first;
-    const double n = sum_of_terms(t, term, r->terms[FIT_NUMERATOR], f);
+    const double n = sum_of_terms(t, term, r->terms[FIT_NUMERATOR], s);
     double d = 1;
 
     if (r->terms[FIT_DENOMINATOR])
-        d = sum_of_terms(t, term + r->terms[FIT_NUMERATOR], r->terms[FIT_DENOMINATOR], f);
+        d = sum_of_terms(t, term + r->terms[FIT_NUMERATOR], r->terms[FIT_DENOMINATOR], s);
     if (!is_finite(n) || !is_finite(d) || (d < smallest_denominator && d > -smallest_denominator))
         return 0;
     *value = value_of(n / d);
     return 1;
 }
 
-static int follow(const fap_fit *t, const fit_edge *e, fap_frame *f, fit_set *known)
+static int follow(const fap_fit *t, const fit_edge *e, fap_frame *f, fit_sources *s)
 {
     int given = 0;
 
     for (const fit_rule *r = t->rule + e->first, *end = r + e->rules; r < end; r++) {
         int32_t value;
-        if (fit_set_has(known, r->target) || !evaluate(t, r, f, &value))
+        if (fit_set_has(&s->known, r->target) || !evaluate(t, r, s, &value))
             continue;
         f->value[r->target] = value;
         f->state[r->target] = FAP_DERIVED;
-        fit_set_add(known, r->target);
+        s->value[r->target] = value;
+        fit_set_add(&s->known, r->target);
         given = 1;
     }
     return given;
@@ -346,15 +355,16 @@ void fap_fit_apply(const fap_fit *fit, fap_frame *frame)
 
     if (!fit || !frame)
         return;
-    fit_set known = known_sources(frame);
-    while (given && fit_set_lacks(&fit->targets, &known)) {
+    fit_sources sources;
+    read_sources(&sources, frame);
+    while (given && fit_set_lacks(&fit->targets, &sources.known)) {
         given = 0;
         for (size_t i = 0; i < fit->edge_count; i++) {
             const fit_edge *const e = &fit->edge[i];
-            if (followed[i] || fit_set_lacks(&e->sources, &known))
+            if (followed[i] || fit_set_lacks(&e->sources, &sources.known))
                 continue;
             followed[i] = 1;
-            given |= follow(fit, e, frame, &known);
+            given |= follow(fit, e, frame, &sources);
         }
     }
 }
