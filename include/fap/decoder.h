@@ -58,6 +58,7 @@ typedef struct fap_plane_info {
     uint32_t header_bits;              /**< start code, stuffing in front of it, plane header */
     uint32_t setup_bits;               /**< quantiser, masks, gender: I planes */
     uint32_t range_bits;               /**< new range tables: I planes */
+    uint32_t run_bits; /**< what ends arithmetic runs, start code protection, flags between them */
     uint32_t body_bits;
     double rate_hz;                                     /**< in force */
     uint16_t fap_bits[FAP_COUNT + 1];                   /**< bits that the FAP's symbols took, to the bit */
@@ -93,8 +94,10 @@ FAP_API FAP_NODISCARD fap_err fap_decoder_send(fap_decoder *decoder, const uint8
  *         FAP_E_BITSTREAM    the plane breaks the standard
  *         FAP_E_UNSUPPORTED  the plane is coded in DCT segments
  *         FAP_E_LIMIT        the P planes since the last I plane used up symbol_memory
- * After an error @p out is untouched, and the next calls go on at the next I plane that can be found: behind
- * a start code, or at the start of the next unit. FAPs keep their values until then.
+ * After an error @p out is untouched, and the next calls go on behind the next start code that can be found, or
+ * at the start of the next unit. Until an I plane comes, each P plane or lost unit gives a frame in which known FAPs
+ * are FAP_CONCEALED: they go on as they moved, slow down, and after half a second ease to rest, never by more a
+ * frame than the stream itself did. The I plane is exact at once; what it does not code is held as last decoded.
  */
 FAP_API FAP_NODISCARD fap_err fap_decoder_receive(fap_decoder *decoder, fap_frame *out);
 

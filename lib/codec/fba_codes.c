@@ -32,6 +32,25 @@ void fap_fba_seek_code(fap_bits *b)
         b->at += 8;
 }
 
+static int begins_something(const fap_bits *b, int drafts)
+{
+    switch (is_start_code(b, b->at) ? fap_bits_peek(b, b->at + 24, 8) : 0) {
+    case FBA_CODE_OBJECT:
+    case FBA_CODE_PLANE:
+    case FBA_CODE_END: return 1;
+    case FBA_CODE_DRAFT_OBJECT:
+    case FBA_CODE_DRAFT_PLANE: return drafts;
+    default: return 0;
+    }
+}
+
+void fap_fba_seek_plane(fap_bits *b, int drafts)
+{
+    b->at = (b->at + 7) / 8 * 8;
+    while (b->at < b->end && !begins_something(b, drafts))
+        b->at += 8;
+}
+
 int fap_fba_is_used_up(const fap_bits *b)
 {
     return b->at == b->end || (b->at + 8 >= b->end && b->at + (uint64_t)stuffing(b, b->at) == b->end);

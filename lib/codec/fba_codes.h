@@ -13,6 +13,11 @@
 int fap_fba_code_at(const fap_bits *b, uint64_t *at);
 /* Forward to the next start code or the end. */
 void fap_fba_seek_code(fap_bits *b);
+/*
+ * Forward to where a plane or object may begin, or the end code, or the end. Within planes the pattern of other codes does
+ * come up (two arithmetic runs meet), so those of drafts count only with @p drafts.
+ */
+void fap_fba_seek_plane(fap_bits *b, int drafts);
 /* Nothing is left but stuffing. */
 int fap_fba_is_used_up(const fap_bits *b);
 /* What is left is less than a byte of 0s. */

@@ -10,6 +10,7 @@
 #include <fap/decoder.h>
 
 #include "base/mem.h"
+#include "codec/conceal.h"
 #include "codec/fba_body.h"
 #include "codec/fba_codes.h"
 #include "codec/fba_face.h"
@@ -55,13 +56,16 @@ struct fap_decoder {
     int face_ready, body_ready; /* an I plane was decoded: P planes can be */
     int segments;               /* the last I plane was in DCT segments */
     int lost;                   /* only a start code shows where the next plane is */
+    int unit_lost;              /* send() was told that there is no unit */
+    int waits;                  /* for an I plane, and what comes until then is concealed */
 
     fba_face face;
     model model[FBA_PARAMS];
     fba_body body;
     model_pool pool;
     fba_time time;
-    fap_frame frame;
+    fap_frame frame; /* decoded last */
+    fba_conceal conceal;
     fap_plane_info info;
     model_node node[]; /* [pool.count + 1] */
 };
@@ -163,8 +167,8 @@ static fap_err read_header(fap_decoder *d, plane_header *h)
 /* Of @p copy, P planes use the motion alone. */
 static fap_err read_face(fap_decoder *d, fba_face *copy, int intra)
 {
-    fba_face_reader r = { &d->bits, d->model, &d->pool, d->cfg.default_bound, 0, "", "" };
-
+    const uint64_t start = d->bits.at;
+    fba_face_reader r = { &d->bits, d->model, &d->pool, d->cfg.default_bound, start, start, 0, "", "" };
     fap_err err = FAP_OK;
 
     if (intra) {
@@ -173,6 +177,8 @@ static fap_err read_face(fap_decoder *d, fba_face *copy, int intra)
     } else {
         copy->motion = d->face.motion;
     }
+    d->info.setup_bits = (uint32_t)(r.ranges_at - start);
+    d->info.range_bits = (uint32_t)(r.params_at - r.ranges_at);
     if (err == FAP_OK)
         err = fap_fba_face_move(&r, intra ? &copy->list : &d->face.list, &copy->motion, intra);
     return err == FAP_OK ? err : fail(d, err, r.at, r.what, r.why);
@@ -231,10 +237,24 @@ static void fill_info_of_setup(fap_plane_info *i, const fba_setup *s)
     }
 }
 
-static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start)
+static uint32_t bits_of_symbols(const fba_motion *m)
+{
+    uint32_t sum = 0;
+
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        sum += m->fap_bits[fap];
+    return sum;
+}
+
+/* @p data: where the plane header ends. What the parts leave over is what arithmetic runs take to end, and flags. */
+static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start, uint64_t data)
 {
     fap_plane_info *i = &d->info;
 
+    i->header_bits = (uint32_t)(data - start);
+    i->run_bits = (uint32_t)(d->bits.at - data) - i->setup_bits - i->range_bits - i->body_bits -
+                  bits_of_symbols(&d->face.motion);
+    i->concealed = 0;
     i->bit_position = d->bits_before + (int64_t)start;
     i->bit_count = (uint32_t)(d->bits.at - start);
     i->intra = (uint8_t)h->intra;
@@ -281,17 +301,68 @@ static fap_err read_data(fap_decoder *d, const plane_header *h, fba_face *copy)
 {
     fap_err err = FAP_OK;
 
+    d->info.setup_bits = d->info.range_bits = 0;
     if (h->has_face)
         err = read_face(d, copy, h->intra);
+    d->info.body_bits = (uint32_t)d->bits.at;
     if (err == FAP_OK && h->has_body)
         err = read_body(d, h->intra);
+    d->info.body_bits = (uint32_t)d->bits.at - d->info.body_bits;
     if (err == FAP_E_UNSUPPORTED)
         d->segments = 1;
     return err;
 }
 
+/* --- losses --- */
+
+/* In place of a frame that cannot be decoded. d->frame stays: what an I plane does not code is held from there. */
+static void conceal(fap_decoder *d, fap_frame *out)
+{
+    *out = d->frame;
+    out->number = d->time.number;
+    out->pts_us = fap_fba_time_us(&d->time);
+    fap_conceal_show(&d->conceal, out, (int)(d->time.rate_16 / 16));
+    fap_plane_info *i = &d->info;
+    i->concealed = 1;
+    i->bit_position = d->bits_before + (int64_t)d->bits.at;
+    i->bit_count = i->header_bits = i->setup_bits = i->range_bits = i->body_bits = i->run_bits = 0;
+    i->intra = i->start_code = i->has_face = i->has_body = 0;
+    i->skipped = 0;
+    memset(i->fap_bits, 0, sizeof i->fap_bits);
+}
+
+/* The unit that send() was told of takes the time of one frame. */
+static fap_err conceal_unit(fap_decoder *d, fap_frame *out)
+{
+    static const fba_time_fields one_frame;
+
+    d->unit_lost = 0;
+    d->planes++;
+    fap_fba_time_advance(&d->time, &one_frame, d->segments ? DCT_FRAMES : 1);
+    d->face_ready = d->body_ready = d->segments = 0;
+    d->waits = 1;
+    conceal(d, out);
+    return FAP_OK;
+}
+
+/* A P plane without what it builds on. FAP_E_AGAIN: passed over. */
+static fap_err pass_over(fap_decoder *d, uint64_t at, fap_frame *out)
+{
+    const fap_err err = note(d, DEV_WAITING);
+
+    lose(d, at);
+    if (err != FAP_OK)
+        return err;
+    if (!d->waits)
+        return FAP_E_AGAIN;
+    conceal(d, out);
+    return FAP_OK;
+}
+
+/* --- a plane --- */
+
 /* FAP_E_AGAIN: a P plane that cannot be decoded was passed over. */
-static fap_err read_plane(fap_decoder *d, uint64_t start)
+static fap_err read_plane(fap_decoder *d, uint64_t start, fap_frame *out)
 {
     const uint64_t at = d->bits.at;
     plane_header h;
@@ -299,24 +370,27 @@ static fap_err read_plane(fap_decoder *d, uint64_t start)
 
     d->planes++;
     fap_err err = read_header(d, &h);
+    const uint64_t data = d->bits.at;
     if (err == FAP_OK)
         err = advance(d, &h);
-    if (err == FAP_OK && !can_decode(d, &h)) {
-        err = note(d, DEV_WAITING);
-        lose(d, at);
-        return err == FAP_OK ? FAP_E_AGAIN : err;
-    }
+    if (err == FAP_OK && !can_decode(d, &h))
+        return pass_over(d, at, out);
     if (err == FAP_OK)
         err = read_data(d, &h, &copy);
-    if (err != FAP_OK)
+    if (err != FAP_OK) {
+        d->waits = d->conceal.started;
         return lose(d, at), err;
+    }
     if (h.has_face)
         keep_face(d, &copy, h.intra);
     else
         memset(d->face.motion.fap_bits, 0, sizeof d->face.motion.fap_bits);
     d->body_ready |= h.has_body;
     show_frame(d, &h);
-    fill_info(d, &h, start);
+    fap_conceal_see(&d->conceal, &d->frame);
+    d->waits = 0;
+    fill_info(d, &h, start, data);
+    *out = d->frame;
     return FAP_OK;
 }
 
@@ -324,7 +398,7 @@ static fap_err read_plane(fap_decoder *d, uint64_t start)
 
 static void begin_object(fap_decoder *d)
 {
-    d->face_ready = d->body_ready = d->lost = d->segments = 0;
+    d->face_ready = d->body_ready = d->lost = d->segments = d->waits = 0;
     d->face.has_ranges = 0;
     fap_fba_body_init(&d->body);
 }
@@ -343,6 +417,7 @@ static void reset_stream(fap_decoder *d)
     d->started = 0;
     fap_fba_time_init(&d->time);
     d->frame = (fap_frame){ 0 };
+    d->conceal = (fba_conceal){ 0 };
 }
 
 static fap_err take_end(fap_decoder *d)
@@ -388,7 +463,7 @@ static fap_err find_plane(fap_decoder *d, uint64_t *start)
     d->plane_code = 0;
     for (;;) {
         if (d->lost)
-            fap_fba_seek_code(b);
+            fap_fba_seek_plane(b, d->noticed >> DEV_DRAFT_CODES & 1);
         *start = b->at;
         if (fap_fba_is_used_up(b))
             return end_unit(d, FAP_E_AGAIN);
@@ -413,6 +488,8 @@ fap_err fap_decoder_receive(fap_decoder *d, fap_frame *out)
 
     if (!d || !out)
         return FAP_E_ARG;
+    if (d->unit_lost)
+        return conceal_unit(d, out);
     while (err == FAP_E_AGAIN && d->bits.data) {
         err = find_plane(d, &start);
         if (err == FAP_OK && !d->started) {
@@ -420,11 +497,9 @@ fap_err fap_decoder_receive(fap_decoder *d, fap_frame *out)
             err = note(d, DEV_NO_OBJECT_CODE);
         }
         if (err == FAP_OK)
-            err = read_plane(d, start);
+            err = read_plane(d, start, out);
         d->bits.bad = BITS_FINE;
     }
-    if (err == FAP_OK)
-        *out = d->frame;
     return err;
 }
 
@@ -474,10 +549,14 @@ fap_err fap_decoder_open(fap_decoder **decoder, const fap_decoder_config *cfg)
 
 fap_err fap_decoder_send(fap_decoder *d, const uint8_t *data, size_t size)
 {
-    if (!d || !data || !size || size > SIZE_MAX / 16)
+    if (!d || !data != !size || size > SIZE_MAX / 16)
         return FAP_E_ARG;
-    if (d->bits.data)
+    if (d->bits.data || d->unit_lost)
         return FAP_E_AGAIN;
+    if (!data) {
+        d->unit_lost = 1;
+        return FAP_OK;
+    }
     fap_bits_init(&d->bits, data, size);
     d->lost = 0;
     return FAP_OK;
@@ -486,7 +565,7 @@ fap_err fap_decoder_send(fap_decoder *d, const uint8_t *data, size_t size)
 void fap_decoder_flush(fap_decoder *d)
 {
     end_unit(d, FAP_OK);
-    d->face_ready = d->body_ready = 0;
+    d->face_ready = d->body_ready = d->unit_lost = d->waits = 0;
 }
 
 const fap_plane_info *fap_decoder_plane(const fap_decoder *d)

@@ -97,9 +97,11 @@ fap_err fap_fba_face_set_up(fba_face_reader *r, fba_face *p)
                     "DCT segments (ISO/IEC 14496-2, face segment syntax) are not supported");
     install_default_ranges(r, p);
     const uint32_t is_new = fap_bits_get(b, 4);
+    r->ranges_at = b->at;
     for (int table = 0; table < 4; table++)
         if (is_new >> (3 - table) & 1)
             read_range_table(b, &p->setup, table);
+    r->params_at = b->at;
     fap_fba_list_coded(&p->list, &p->setup);
     return check_bits(r, "symbol ranges");
 }

@@ -32,6 +32,8 @@ typedef struct fba_face_reader {
     model *model; /* [FBA_PARAMS], of P planes */
     model_pool *pool;
     int default_bound;
+    uint64_t ranges_at; /* of the last I plane: where new range tables begin ... */
+    uint64_t params_at; /* ... and where they end */
     uint64_t at;
     const char *what, *why;
 } fba_face_reader;

@@ -419,6 +419,7 @@ TEST(fba, dct_segments_are_named_and_left_out)
     assert_int_equal(next_ok(d).value[48], 170);
     assert_int_equal(fap_decoder_receive(d, &f), FAP_E_UNSUPPORTED);
     assert_non_null(strstr(fap_decoder_last_error(d), "fba_object_coding_type"));
+    assert_int_equal(next_ok(d).state[48], FAP_CONCEALED);
     f = next_ok(d);
     assert_int_equal(f.value[48], 2 * 170);
     assert_int_equal(f.number, 1 + 16 + 16);
@@ -539,6 +540,8 @@ TEST(fba, a_damaged_plane_costs_no_more_than_its_group)
     next_ok(d);
     assert_int_equal(fap_decoder_receive(d, &f), FAP_E_BITSTREAM);
     assert_non_null(strstr(fap_decoder_last_error(d), "marker"));
+    assert_int_equal(next_ok(d).state[48], FAP_CONCEALED);
+    assert_int_equal(fap_decoder_plane(d)->concealed, 1);
     f = next_ok(d);
     assert_int_equal(f.value[48], 3 * 170);
     assert_int_equal(f.number, 3);
