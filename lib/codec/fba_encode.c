@@ -77,6 +77,8 @@ void fap_encoder_flush(fap_encoder *e)
 
 static void drop_frames(fap_encoder *e, int done)
 {
+    if (e->search)
+        fap_fba_search_done(e, done);
     e->count -= done;
     memmove(e->queue, e->queue + done, (size_t)e->count * sizeof *e->queue);
     e->ready = e->flushed || (e->count && !e->cfg.look_ahead);
@@ -221,6 +223,7 @@ static void begin_stream(fap_encoder *e)
     else
         fap_sensitivity_typical(&e->sensitivity);
     e->cfg.sensitivity = NULL;
+    e->max_error = (uint64_t)(e->cfg.max_error_mm * 1e6 + 0.5);
     e->last_coded = -1;
     choose_rate(e);
     fap_fba_window_init(&e->window, e->rate_16, e->offset,

@@ -47,7 +47,9 @@ struct fap_encoder {
     fba_setup plan;              /* of an I plane */
     fba_coded_list plan_list;
     uint8_t plan_set[FAP_COUNT + 1];
-    struct fba_search *search; /* NULL with FAP_ENCODE_QUANT */
+    struct fba_search *search;        /* NULL with FAP_ENCODE_QUANT */
+    uint64_t max_error;               /* nm, FAP_ENCODE_ERROR */
+    int64_t permitted[FAP_COUNT + 1]; /* units of each FAP, of the group */
 
     /* What the decoder has after the planes written so far. */
     fba_face face;
@@ -62,7 +64,8 @@ struct fap_encoder {
     uint8_t group_set[FAP_COUNT + 1]; /* what the group carries, coded or derived */
     int64_t last_coded;               /* frame number, -1: none */
     uint32_t stuffing;                /* bits at the end of the last packet */
-    int32_t wanted[FBA_PARAMS];       /* last values asked for */
+    int32_t wanted[FBA_PARAMS];       /* last values asked for; not with FAP_ENCODE_QUANT */
+    fap_frame last_frame;             /* the last one that left the queue; likewise */
     int32_t peak[FBA_PARAMS];         /* largest change that was asked for, fading; FAPs 3..68 */
 
     fap_frame *shown; /* [capacity] the last packet, reconstructed */
@@ -85,8 +88,9 @@ int fap_fba_in_set(const fap_frame *f, const uint8_t set[FAP_COUNT + 1], int exa
 int fap_fba_plan(fap_encoder *e, int *intra);
 /* A change of a value that was asked for. */
 void fap_fba_note_change(fap_encoder *e, int param, int64_t change);
-/* Masks of what is coded; ranges that just hold @p max and @p min of levels. */
+/* Masks of what is coded; ranges: of P planes that hold a path, of either kind that just hold two levels. */
 void fap_fba_set_masks(fba_setup *s);
+void fap_fba_fit_range(fap_encoder *e, int param, const int32_t *place, size_t stride, int count);
 void fap_fba_set_range(fba_setup *s, int kind, int param, int32_t min, int32_t max);
 
 /* --- fba_put.c --- */

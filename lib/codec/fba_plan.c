@@ -87,12 +87,12 @@ static int32_t expected_change(const fap_encoder *e, int param, int32_t step)
     return (large ? 2 * FBA_BOUND_UNIT : FBA_BOUND_UNIT) / (e->plan.quant ? e->plan.quant : 1);
 }
 
-static void fit_range(fap_encoder *e, int param, int count)
+void fap_fba_fit_range(fap_encoder *e, int param, const int32_t *place, size_t stride, int count)
 {
     int32_t min = 0, max = 0;
 
-    for (int i = 1; i < count; i++) {
-        const int32_t level = e->path[i][param] - e->path[i - 1][param];
+    for (int i = 1; i < count; i++, place += stride) {
+        const int32_t level = place[stride] - place[0];
         min = level < min ? level : min;
         max = level > max ? level : max;
     }
@@ -102,17 +102,19 @@ static void fit_range(fap_encoder *e, int param, int count)
         max = more > max ? more : max;
     }
     fap_fba_set_range(&e->plan, FBA_P, param, min, max);
-    const int32_t first = e->path[0][param];
-    fap_fba_set_range(&e->plan, FBA_I, param, first < 0 ? first : 0, first > 0 ? first : 0);
 }
 
 static void fit_ranges(fap_encoder *e, int count)
 {
-    for (int param = FBA_FIRST_FAP; param < FBA_PARAMS; param++)
-        if (e->plan.coded[fap_fba_fap(param)])
-            fit_range(e, param, count);
-        else
-            fap_fba_set_range(&e->plan, FBA_I, param, 0, 0), fap_fba_set_range(&e->plan, FBA_P, param, 0, 0);
+    for (int param = FBA_FIRST_FAP; param < FBA_PARAMS; param++) {
+        const int32_t first = e->path[0][param];
+        fap_fba_set_range(&e->plan, FBA_P, param, 0, 0);
+        fap_fba_set_range(&e->plan, FBA_I, param, 0, 0);
+        if (!e->plan.coded[fap_fba_fap(param)])
+            continue;
+        fap_fba_fit_range(e, param, &e->path[0][param], FBA_PARAMS, count);
+        fap_fba_set_range(&e->plan, FBA_I, param, first < 0 ? first : 0, first > 0 ? first : 0);
+    }
 }
 
 /* --- FAP_ENCODE_QUANT --- */
@@ -176,7 +178,6 @@ static void begin_setup(fap_encoder *e, int count)
     e->plan.gender = e->cfg.gender != 0;
     memcpy(e->plan.coded, e->plan_set, sizeof e->plan.coded);
     fap_fba_set_masks(&e->plan);
-    fap_fba_list_coded(&e->plan_list, &e->plan);
 }
 
 /* Would an I plane, but not a P plane, carry the frame? */
@@ -219,9 +220,15 @@ static int plan_run(fap_encoder *e, int intra)
     if (intra)
         begin_setup(e, count);
     memset(e->left_out, 0, (size_t)count);
-    settle_all(e, count, intra);
+    if (intra && e->search && !fap_fba_search_begin(e, count))
+        return e->left_out[0] = 1;
+    fap_fba_list_coded(&e->plan_list, &e->plan);
+    if (e->search)
+        fap_fba_search_run(e, count, intra);
+    else
+        settle_all(e, count, intra);
     if (!intra)
-        return carried(e, count);
+        return e->cfg.mode == FAP_ENCODE_BITRATE ? count : carried(e, count);
     fit_ranges(e, count);
     fap_fba_list_coded(&e->plan_list, &e->plan);
     return count;

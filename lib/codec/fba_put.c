@@ -238,7 +238,7 @@ int fap_fba_put_frames(fap_encoder *e, fap_bit_writer *w, int count, int intra)
     e->shown_count = 0;
     for (int i = 0; i < count; i++) {
         const int is_last = e->flushed && i == e->count - 1, is_intra = intra && i == 0;
-        const put_result r = e->left_out[i] && !is_last && !is_intra
+        const put_result r = e->left_out[i] && (is_intra || !is_last)
                                  ? PUT_LEFT_OUT
                                  : put_frame(e, w, &e->queue[i], e->path[i], is_intra);
         if (r == PUT_NO_MEMORY) {

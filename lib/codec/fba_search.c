@@ -1,21 +1,544 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* See fba_search.h. */
+/*
+ * See fba_search.h. A trial is a quantiser and a lambda for every frame: each parameter takes its best path, which
+ * gives bits and error. FAP_ENCODE_BITRATE looks for the quantiser with the least error at the mean rate, and then
+ * lets lambda follow the load of the windows. FAP_ENCODE_ERROR looks for the quantiser with the fewest bits.
+ */
+#include <string.h>
+
+#include "base/mem.h"
+#include "bank/sensitivity.h"
 #include "codec/fba_search.h"
+
+enum { PASSES = 2, BALANCE_ROUNDS = 10, FULL = 1024, COARSE = 2 * SEARCH_OCTAVE };
+
+static const uint8_t quants[] = { 1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 30, 31 };
+enum { QUANTS = sizeof quants / sizeof *quants };
+
+/* --- memory --- */
 
 int fap_fba_search_open(fap_encoder *e)
 {
-    (void)e;
-    return 1;
+    const size_t n = (size_t)e->capacity;
+    const fap_allocator *a = &e->alloc;
+    fba_search *s = e->search = fap_mem_calloc(a, 1, sizeof *s);
+
+    if (!s)
+        return 0;
+    fap_fba_costs_init(&s->costs);
+    s->want = fap_mem_calloc(a, n * FBA_PARAMS, sizeof *s->want);
+    s->column = fap_mem_calloc(a, n, sizeof *s->column);
+    s->next = fap_mem_calloc(a, n, sizeof *s->next);
+    s->best = fap_mem_calloc(a, n, sizeof *s->best);
+    s->best_left_out = fap_mem_calloc(a, n, sizeof *s->best_left_out);
+    s->still = fap_mem_calloc(a, n, sizeof *s->still);
+    s->lambda = fap_mem_calloc(a, n, sizeof *s->lambda);
+    s->level = fap_mem_calloc(a, n, sizeof *s->level);
+    s->fixed = fap_mem_calloc(a, n, sizeof *s->fixed);
+    s->moving = fap_mem_calloc(a, n, sizeof *s->moving);
+    s->state = fap_mem_calloc(a, n, sizeof *s->state);
+    s->sum = fap_mem_calloc(a, 2 * (n + 2 * WINDOW_MAX), sizeof *s->sum);
+    s->load = fap_mem_calloc(a, n + WINDOW_MAX, sizeof *s->load);
+    return s->want && s->column && s->next && s->best && s->best_left_out && s->still && s->lambda &&
+           s->level && s->fixed && s->moving && s->state && s->sum && s->load;
 }
 
 void fap_fba_search_close(fap_encoder *e)
 {
-    (void)e;
+    fba_search *s = e->search;
+
+    if (!s)
+        return;
+    fap_mem_free(&e->alloc, s->load);
+    fap_mem_free(&e->alloc, s->sum);
+    fap_mem_free(&e->alloc, s->state);
+    fap_mem_free(&e->alloc, s->moving);
+    fap_mem_free(&e->alloc, s->fixed);
+    fap_mem_free(&e->alloc, s->level);
+    fap_mem_free(&e->alloc, s->lambda);
+    fap_mem_free(&e->alloc, s->still);
+    fap_mem_free(&e->alloc, s->best_left_out);
+    fap_mem_free(&e->alloc, s->best);
+    fap_mem_free(&e->alloc, s->next);
+    fap_mem_free(&e->alloc, s->column);
+    fap_mem_free(&e->alloc, s->want);
+    fap_mem_free(&e->alloc, s);
+    e->search = NULL;
 }
 
-int fap_fba_thin(fap_encoder *e, const fap_frame *want, const fba_coded_list *list, int32_t *level,
-                 int strength)
+/* --- one parameter --- */
+
+/* What a trial of one parameter needs to know. */
+typedef struct lane {
+    fap_encoder *e;
+    const fba_coded *c;
+    int count, intra;
+    trellis t;
+} lane;
+
+static int is_exact(const fba_coded *c)
 {
-    (void)e, (void)want, (void)list, (void)level;
-    return strength < 0;
+    return c->param < FBA_FIRST_FAP; /* visemes and expressions are mixes: only their strengths are rounded */
+}
+
+static int32_t level_at(const lane *l, const int32_t *place, int i)
+{
+    return place[i] - (i ? place[i - 1] : l->e->at[l->c->param]);
+}
+
+/* Counts of the models so far and of a path, added or taken away. Returns the models' sum. */
+static int load(const lane *l, const int32_t *place, int sign)
+{
+    fba_costs *costs = &l->e->search->costs;
+
+    for (int i = l->intra; i < l->count; i++) {
+        uint16_t *n = &costs->count[level_at(l, place, i) + COST_LEVELS];
+        *n = (uint16_t)(*n + sign);
+    }
+    return l->intra ? 0
+                    : fap_fba_costs_load(costs, &l->e->model[l->c->param], &l->e->pool,
+                                         l->c->symbols[FBA_P].min, sign);
+}
+
+static fba_range widest_range(const lane *l)
+{
+    if (l->intra && !is_exact(l->c))
+        return (fba_range){ (int16_t)-l->t.widest, (int16_t)l->t.widest };
+    return fap_fba_param_range(l->intra ? &l->e->plan : &l->e->face.setup, l->c->param, 0);
+}
+
+static fba_range range_of_path(const lane *l, const int32_t *place)
+{
+    if (!l->intra || is_exact(l->c))
+        return widest_range(l);
+    fap_fba_fit_range(l->e, l->c->param, place, 1, l->count);
+    return fap_fba_param_range(&l->e->plan, l->c->param, 0);
+}
+
+static void prepare(lane *l)
+{
+    fap_encoder *e = l->e;
+    fba_search *s = e->search;
+    const int quant = l->intra ? e->plan.quant : e->face.setup.quant;
+
+    l->t = (trellis){ .want = s->want + (size_t)l->c->param * (size_t)e->capacity,
+                      .lambda = s->lambda,
+                      .still = s->still,
+                      .state = s->state,
+                      .costs = &s->costs,
+                      .count = l->count,
+                      .intra = l->intra,
+                      .start = e->at[l->c->param],
+                      .step = l->c->step,
+                      .widest = fap_fba_bound(FBA_BOUND_MAX, quant),
+                      .nm = e->sensitivity.nm[l->c->fap],
+                      .permitted = e->cfg.mode == FAP_ENCODE_ERROR ? e->permitted[l->c->fap] : -1 };
+    if (l->t.permitted >= 0 && l->t.permitted < l->c->step / 2)
+        l->t.permitted = l->c->step / 2;
+    l->t.range = widest_range(l);
+}
+
+static int32_t between(int32_t v, int32_t min, int32_t max)
+{
+    return v < min ? min : v > max ? max : v;
+}
+
+/* The nearest places that can be reached. */
+static void round_path(const lane *l, int32_t *place)
+{
+    const trellis *t = &l->t;
+
+    for (int i = 0; i < l->count; i++) {
+        const int32_t nearest = fap_fba_nearest(t->want[i], t->step);
+        const int32_t from = i ? place[i - 1] : t->start;
+        if (i == 0 && t->intra)
+            place[i] = is_exact(l->c) ? nearest : between(nearest, -t->widest, t->widest);
+        else
+            place[i] = t->still[i] ? from : from + between(nearest - from, t->range.min, t->range.max);
+    }
+}
+
+static uint64_t path_error(const lane *l, const int32_t *place)
+{
+    uint64_t error = 0;
+
+    for (int i = 0; i < l->count; i++)
+        error += fap_fba_error(&l->t, l->t.want[i], place[i]);
+    return error;
+}
+
+/* The bits of a path as the models will charge them, weighed; into @p moving where that is not NULL. */
+static uint64_t path_rate(const lane *l, const int32_t *place, const uint8_t *left_out, uint32_t *moving)
+{
+    fba_search *s = l->e->search;
+    const fba_range range = range_of_path(l, place);
+    int total = fba_range_size(range);
+    uint64_t rate = 0;
+
+    total +=
+        l->intra ? 0 : fap_fba_costs_load(&s->costs, &l->e->model[l->c->param], &l->e->pool, range.min, 1);
+    for (int i = l->intra; i < l->count; i++) {
+        if (left_out && left_out[i])
+            continue;
+        uint16_t *n = &s->costs.count[level_at(l, place, i) + COST_LEVELS];
+        const uint32_t bits = fba_cost_of_size(&s->costs, total++) - s->costs.log2[1 + (*n)++];
+        rate += s->lambda[i] * bits / COST_BIT;
+        if (moving)
+            moving[i] += bits;
+    }
+    for (int i = l->intra; i < l->count; i++)
+        if (!left_out || !left_out[i])
+            s->costs.count[level_at(l, place, i) + COST_LEVELS]--;
+    if (!l->intra)
+        fap_fba_costs_load(&s->costs, &l->e->model[l->c->param], &l->e->pool, range.min, -1);
+    return rate;
+}
+
+/* A parameter that never changes costs nothing in P planes. */
+static void rest_path(const lane *l, int32_t *place)
+{
+    const trellis *t = &l->t;
+    int64_t sum = 0;
+
+    for (int i = 0; i < l->count; i++)
+        sum += t->want[i];
+    const int32_t at =
+        t->intra ? between(fap_fba_nearest(sum / l->count, t->step), -t->widest, t->widest) : t->start;
+    for (int i = 0; i < l->count; i++)
+        place[i] = at;
+}
+
+static uint64_t sum_of(const lane *l, const int32_t *place)
+{
+    return path_error(l, place) + path_rate(l, place, NULL, NULL);
+}
+
+/* Into column. */
+static void find_path(lane *l)
+{
+    fba_search *s = l->e->search;
+
+    round_path(l, s->column);
+    for (int pass = 0; pass < PASSES; pass++) {
+        l->t.range = range_of_path(l, s->column);
+        l->t.total = fba_range_size(l->t.range) + l->count - l->intra + load(l, s->column, 1);
+        fap_fba_trellis(&l->t, s->next);
+        load(l, s->column, -1);
+        memcpy(s->column, s->next, (size_t)l->count * sizeof *s->column);
+    }
+    rest_path(l, s->next);
+    if (sum_of(l, s->next) < sum_of(l, s->column))
+        memcpy(s->column, s->next, (size_t)l->count * sizeof *s->column);
+}
+
+static void try_lane(lane *l)
+{
+    fap_encoder *e = l->e;
+
+    prepare(l);
+    if (is_exact(l->c))
+        round_path(l, e->search->column);
+    else
+        find_path(l);
+    for (int i = 0; i < l->count; i++)
+        e->path[i][l->c->param] = e->search->column[i];
+    if (!is_exact(l->c))
+        e->search->error += path_error(l, e->search->column);
+}
+
+/* --- a trial --- */
+
+static int says_the_same(const fap_frame *a, const fap_frame *b, const uint8_t *coded)
+{
+    return (!coded[1] || a->viseme.def == b->viseme.def) &&
+           (!coded[2] ||
+            (a->expression.def == b->expression.def && a->expression.init_face == b->expression.init_face));
+}
+
+/* P planes that change nothing. */
+static void leave_out(fap_encoder *e, const fba_coded_list *list, int count, int intra)
+{
+    for (int i = 0; i < count; i++) {
+        const int32_t *from = i ? e->path[i - 1] : e->at;
+        int same = e->cfg.skip &&
+                   (i ? says_the_same(&e->queue[i].frame, &e->queue[i - 1].frame, e->plan.coded)
+                      : !intra && says_the_same(&e->queue[0].frame, &e->last_frame, e->face.setup.coded));
+        for (int k = 0; same && k < list->count; k++)
+            same = e->path[i][list->of[k].param] == from[list->of[k].param];
+        e->left_out[i] = (uint8_t)same;
+    }
+}
+
+static void charge(lane *l)
+{
+    fap_encoder *e = l->e;
+    fba_search *s = e->search;
+
+    for (int i = 0; i < l->count; i++)
+        s->column[i] = e->path[i][l->c->param];
+    prepare(l);
+    path_rate(l, s->column, e->left_out, s->moving);
+    if (!l->intra)
+        return;
+    if (!is_exact(l->c))
+        fap_fba_set_range(&e->plan, FBA_I, l->c->param, between(s->column[0], INT32_MIN, 0),
+                          between(s->column[0], 0, INT32_MAX));
+    s->fixed[0] += fba_cost_of_size(&s->costs, fba_range_size(fap_fba_param_range(&e->plan, l->c->param, 1)));
+}
+
+void fap_fba_try(fap_encoder *e, int count, int intra)
+{
+    static const uint16_t part[SEARCH_OCTAVE] = { /* 2^(i/16) in 1/4096 */
+                                                  4096, 4277, 4467, 4664, 4871, 5087, 5312, 5547,
+                                                  5793, 6049, 6317, 6597, 6889, 7194, 7512, 7845
+    };
+    fba_search *s = e->search;
+
+    if (intra)
+        fap_fba_list_coded(&e->plan_list, &e->plan);
+    const fba_coded_list *list = intra ? &e->plan_list : &e->face.list;
+    for (int i = 0; i < count; i++)
+        s->lambda[i] = ((uint64_t)part[s->level[i] % SEARCH_OCTAVE] << s->level[i] / SEARCH_OCTAVE) >> 12;
+    s->error = s->bits = 0;
+    for (int k = 0; k < list->count; k++)
+        try_lane(&(lane){ e, &list->of[k], count, intra, { 0 } });
+    leave_out(e, list, count, intra);
+    for (int i = 0; i < count; i++) {
+        s->fixed[i] = fap_fba_overhead(e, i, intra);
+        s->moving[i] = 0;
+    }
+    for (int k = 0; k < list->count; k++)
+        charge(&(lane){ e, &list->of[k], count, intra, { 0 } });
+    for (int i = 0; i < count; i++)
+        s->bits += s->fixed[i] + s->moving[i];
+}
+
+/* --- searches --- */
+
+static void set_level(fap_encoder *e, int count, int level)
+{
+    for (int i = 0; i < count; i++)
+        e->search->level[i] = level;
+}
+
+/* Long runs: by the mean; short ones by their windows. */
+static int is_too_much(fap_encoder *e, int count, int intra)
+{
+    if (count < 2 * e->window.frames)
+        return fap_fba_fullest(e, count, intra) > FULL;
+    return (int64_t)(e->search->bits / COST_BIT) > fap_fba_allowance(e, count, intra);
+}
+
+static int try_level(fap_encoder *e, int count, int intra, int level)
+{
+    set_level(e, count, level);
+    fap_fba_try(e, count, intra);
+    return is_too_much(e, count, intra);
+}
+
+/* The least common lambda that is not too much, to @p grain; starts at the one before. Leaves its trial. */
+static void find_level(fap_encoder *e, int count, int intra, int grain)
+{
+    fba_search *s = e->search;
+    int level = s->common_level, step = COARSE, low = 0, high = SEARCH_LEVELS;
+
+    while (high - low > grain) {
+        if (try_level(e, count, intra, level))
+            low = level;
+        else
+            high = level;
+        const int further = level == low ? level + step : level - step;
+        level = further > low && further < high ? further : (low + high) / 2;
+        step *= 2;
+    }
+    s->common_level = high;
+    try_level(e, count, intra, high);
+}
+
+static void keep_trial(fap_encoder *e, int count)
+{
+    memcpy(e->search->best, e->path, (size_t)count * sizeof *e->path);
+    memcpy(e->search->best_left_out, e->left_out, (size_t)count);
+}
+
+static void restore_trial(fap_encoder *e, int count)
+{
+    memcpy(e->path, e->search->best, (size_t)count * sizeof *e->path);
+    memcpy(e->left_out, e->search->best_left_out, (size_t)count);
+}
+
+static uint64_t error_at(fap_encoder *e, int count, int quant)
+{
+    e->plan.quant = quants[quant];
+    find_level(e, count, 1, SEARCH_OCTAVE / 2);
+    return is_too_much(e, count, 1) ? UINT64_MAX : e->search->error;
+}
+
+static int index_of(int quant)
+{
+    int i = 0;
+
+    while (i + 1 < QUANTS && quants[i] < quant)
+        i++;
+    return i;
+}
+
+/* Downhill from the quantiser of the run before. */
+static void find_quant(fap_encoder *e, int count)
+{
+    fba_search *s = e->search;
+    int at = index_of(s->quant ? s->quant : 4), level;
+    uint64_t least = error_at(e, count, at);
+
+    level = s->common_level;
+    for (int direction = -1; direction <= 1; direction += 2) {
+        const int begun = at;
+        while (at + direction >= 0 && at + direction < QUANTS) {
+            const uint64_t error = error_at(e, count, at + direction);
+            if (error >= least)
+                break;
+            least = error;
+            level = s->common_level;
+            at += direction;
+        }
+        if (at != begun)
+            break;
+    }
+    s->common_level = level;
+    s->quant = quants[at];
+    e->plan.quant = quants[at];
+}
+
+/* The best of some rounds that keeps to the windows, or else the one that comes nearest to it. */
+static void balance(fap_encoder *e, int count, int intra)
+{
+    fba_search *s = e->search;
+    uint64_t least = UINT64_MAX;
+    int fullest = INT32_MAX;
+
+    for (int round = 0; round < BALANCE_ROUNDS; round++) {
+        fap_fba_try(e, count, intra);
+        const int full = fap_fba_fullest(e, count, intra);
+        const int better = full <= FULL ? fullest > FULL || s->error < least : full < fullest;
+        if (better) {
+            least = s->error;
+            fullest = full;
+            keep_trial(e, count);
+        }
+        fap_fba_balance(e, count, intra, round);
+    }
+    restore_trial(e, count);
+}
+
+static void search_bitrate(fap_encoder *e, int count, int intra)
+{
+    if (intra)
+        find_quant(e, count);
+    find_level(e, count, intra, SEARCH_OCTAVE / 4);
+    if (count > 1)
+        balance(e, count, intra);
+}
+
+/* --- FAP_ENCODE_ERROR --- */
+
+/* Do two FAPs move the same place along its axes? */
+static int share_place(int a, int b)
+{
+    const fap_info *i = fap_info_get(a), *k = fap_info_get(b);
+    return i->point == k->point && (i->motion == FAP_MOTION_SIZE) == (k->motion == FAP_MOTION_SIZE);
+}
+
+/* Units that a FAP may be off so that its place is not off by more than what is asked for. */
+static int64_t permitted_units(const fap_encoder *e, int fap)
+{
+    const uint64_t all = e->max_error;
+    uint64_t axes = 0;
+
+    for (int other = 1; other <= FAP_COUNT; other++)
+        axes += e->plan_set[other] && share_place(fap, other);
+    if (fap < 3) /* what one gains the other loses */
+        return (int64_t)(all / 2 / e->sensitivity.nm[fap]);
+    if (fap_info_get(fap)->group == fap_info_get(48)->group) /* arcs of a point off all axes may add up */
+        return (int64_t)(all / axes / e->sensitivity.nm[fap]);
+    return (int64_t)(fap_isqrt(all * all / axes) / e->sensitivity.nm[fap]);
+}
+
+/* Nothing that moves has steps larger than twice what is permitted. */
+static int is_fine_enough(const fap_encoder *e, int count, int quant)
+{
+    const int tight = e->capacity >= e->cfg.intra;
+
+    for (int param = FBA_VISEME_SELECT1; param < FBA_PARAMS; param++) {
+        const int fap = fap_fba_fap(param);
+        const int32_t *want = e->search->want + (size_t)param * (size_t)e->capacity;
+        int moves = !tight;
+        for (int i = 0; i < count && !moves; i++)
+            moves = want[i] != 0;
+        if (moves && e->plan.coded[fap] && fap_fba_step(param, quant) / 2 > e->permitted[fap])
+            return fap_fba_step(param, 1) == fap_fba_step(param, quant);
+    }
+    return 1;
+}
+
+static void search_error(fap_encoder *e, int count, int intra)
+{
+    uint64_t fewest = UINT64_MAX;
+
+    for (int fap = 1; intra && fap <= FAP_COUNT; fap++)
+        e->permitted[fap] = e->plan.coded[fap] ? permitted_units(e, fap) : 0;
+    set_level(e, count, 8 * SEARCH_OCTAVE); /* an error unit is 1/256 of a bit */
+    if (!intra) {
+        fap_fba_try(e, count, 0);
+        return;
+    }
+    int best = 1;
+    for (int k = 0; k < QUANTS; k++) {
+        if (k && !is_fine_enough(e, count, quants[k]))
+            break;
+        e->plan.quant = quants[k];
+        fap_fba_try(e, count, 1);
+        if (e->search->bits < fewest) {
+            fewest = e->search->bits;
+            best = quants[k];
+            keep_trial(e, count);
+        }
+    }
+    e->plan.quant = (uint8_t)best;
+    restore_trial(e, count);
+}
+
+/* --- */
+
+void fap_fba_gather(fap_encoder *e, int count)
+{
+    for (int param = 0; param < FBA_PARAMS; param++) {
+        int32_t *want = e->search->want + (size_t)param * (size_t)e->capacity;
+        for (int i = 0; i < count; i++) {
+            const fap_frame *f = &e->queue[i].frame;
+            const int32_t before = i ? want[i - 1] : e->wanted[param];
+            want[i] = f->state[fap_fba_fap(param)] == FAP_CODED ? fap_fba_wanted(f, param) : before;
+        }
+    }
+}
+
+void fap_fba_search_run(fap_encoder *e, int count, int intra)
+{
+    if (!intra)
+        fap_fba_gather(e, count);
+    memset(e->search->still, 0, (size_t)count);
+    if (e->cfg.mode == FAP_ENCODE_ERROR)
+        search_error(e, count, intra);
+    else
+        search_bitrate(e, count, intra);
+    if (intra)
+        e->search->intra_bits = (e->search->fixed[0] + COST_BIT - 1) / COST_BIT;
+}
+
+void fap_fba_search_done(fap_encoder *e, int done)
+{
+    if (!done)
+        return;
+    e->last_frame = e->queue[done - 1].frame;
+    for (int param = 0; param < FBA_PARAMS; param++)
+        e->wanted[param] = e->search->want[(size_t)param * (size_t)e->capacity + (size_t)done - 1];
 }

@@ -4,14 +4,56 @@
 #define LIB_CODEC_FBA_SEARCH_H
 
 #include "codec/fba_encode.h"
+#include "codec/fba_trellis.h"
+
+enum { SEARCH_OCTAVE = 16, SEARCH_LEVELS = 34 * SEARCH_OCTAVE }; /* of lambda */
+
+typedef struct fba_search {
+    fba_costs costs;
+    int32_t *want;                  /* [FBA_PARAMS][capacity] values */
+    int32_t *column, *next;         /* [capacity] paths of one parameter */
+    int32_t (*best)[FBA_PARAMS];    /* [capacity] */
+    uint8_t *best_left_out, *still; /* [capacity] */
+    uint64_t *lambda;               /* [capacity] */
+    int32_t *level;                 /* [capacity] logarithm of lambda */
+    uint32_t *fixed, *moving;       /* [capacity] bits that lambda does not change, and those it does */
+    trellis_state (*state)[TRELLIS_STATES]; /* [capacity] */
+    int64_t *sum;                           /* [2 * (capacity + 2 * WINDOW_MAX)] */
+    int32_t *load;                          /* [capacity + WINDOW_MAX] */
+    int quant, common_level;                /* of the run before; quant 0: none yet */
+    int64_t intra_bits;                     /* of the last I plane */
+    uint64_t error, bits;                   /* of the last trial */
+} fba_search;
+
+/* --- fba_search.c --- */
 
 /* 0: no memory. */
 int fap_fba_search_open(fap_encoder *e);
 void fap_fba_search_close(fap_encoder *e);
+/* Chooses quantiser, places and frames to leave out, for the first @p count frames of the queue. */
+void fap_fba_search_run(fap_encoder *e, int count, int intra);
+/* What the frames ask for; those that do not send a FAP keep what was asked for last. */
+void fap_fba_gather(fap_encoder *e, int count);
+/* Frames that were coded leave the queue. */
+void fap_fba_search_done(fap_encoder *e, int done);
+/* Tries lambda as it is in level: path, left_out, bits, error. */
+void fap_fba_try(fap_encoder *e, int count, int intra);
 
-/* Plans quantiser, ranges and lattice places of the first @p count frames of the queue. */
-void fap_fba_search(fap_encoder *e, int count, int intra);
+/* --- fba_rate.c --- */
 
+/*
+ * Before an I plane: leaves FAPs of least effect out of the plan until the plane takes no more than its share. 0: it
+ * cannot be sent with the first frame of the queue.
+ */
+int fap_fba_search_begin(fap_encoder *e, int count);
+/* Bits of frame @p i of a trial, in 1/256, but for its symbols. */
+uint32_t fap_fba_overhead(const fap_encoder *e, int i, int intra);
+/* How full the fullest window is, of 1024. Needs a trial. */
+int fap_fba_fullest(fap_encoder *e, int count, int intra);
+/* Moves lambda with the load of the windows over each frame, later rounds less. */
+void fap_fba_balance(fap_encoder *e, int count, int intra, int round);
+/* Bits that the frames may take by the mean rate. */
+int64_t fap_fba_allowance(const fap_encoder *e, int count, int intra);
 /*
  * Takes back changes of a P plane that are worth least for their bits: more of them the larger @p strength is, all
  * of them at -1. 0: nothing changed.
