@@ -8,6 +8,7 @@
 #include <fap/sensitivity.h>
 
 #include "bank/sensitivity.h"
+#include "base/bitops.h"
 #include "param/frame.h"
 
 enum {
@@ -29,17 +30,17 @@ static int64_t rounded_ratio(int64_t a, int64_t b)
     return (a + b / 2) / b;
 }
 
+/* One digit of base 4 a step; without branches, for nobody can foretell the digits. */
 uint64_t fap_isqrt(uint64_t v)
 {
+    const uint32_t upper = (uint32_t)(v >> 32), half = upper ? upper : (uint32_t)v | 1;
+    const int first = (31 - fap_leading_zeros(half)) / 2 * 2 + (upper ? 32 : 0);
     uint64_t root = 0;
 
-    for (uint64_t bit = (uint64_t)1 << 62; bit; bit >>= 2) {
-        const uint64_t trial = root + bit;
-        root >>= 1;
-        if (v >= trial) {
-            v -= trial;
-            root += bit;
-        }
+    for (uint64_t bit = (uint64_t)1 << first; bit; bit >>= 2) {
+        const uint64_t trial = root + bit, taken = 0 - (uint64_t)(v >= trial);
+        root = (root >> 1) + (bit & taken);
+        v -= trial & taken;
     }
     return root;
 }
@@ -243,35 +244,45 @@ static uint64_t axis_error(const fap_sensitivity *s, const fap_frame *want, cons
     return nm < INT32_MAX ? nm : INT32_MAX;
 }
 
-static void add_place(fap_frame_error *e, uint64_t square, int fap)
+/* What is wrong at one place, along all its axes that are commanded. */
+typedef struct place_error {
+    uint64_t square;
+    uint32_t nm; /* along the last one */
+    uint8_t axes, fap;
+} place_error;
+
+static void add_axis(place_error *p, uint64_t nm, int fap)
 {
-    const uint64_t nm = fap_isqrt(square);
+    p->square += nm * nm;
+    p->nm = (uint32_t)nm;
+    p->axes++;
+    p->fap = (uint8_t)fap;
+}
+
+static void add_place(fap_frame_error *e, const place_error *p)
+{
+    const uint64_t nm = p->axes > 1 ? fap_isqrt(p->square) : p->nm;
 
     e->items++;
     e->sum_nm += nm;
     if (nm > e->max_nm) {
         e->max_nm = (uint32_t)nm;
-        e->max_fap = fap;
+        e->max_fap = p->fap;
     }
 }
 
 void fap_sensitivity_compare(const fap_sensitivity *s, const fap_frame *want, const fap_frame *got,
                              fap_frame_error *out)
 {
-    uint64_t square[PLACES] = { 0 };
-    uint8_t last[PLACES] = { 0 }; /* a FAP of the place; 0: not commanded */
+    place_error place[PLACES] = { { 0 } };
 
-    for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        if (want->state[fap] == FAP_ABSENT)
-            continue;
-        const uint64_t nm = axis_error(s, want, got, fap);
-        square[place_of(fap)] += nm * nm;
-        last[place_of(fap)] = (uint8_t)fap;
-    }
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (want->state[fap] != FAP_ABSENT)
+            add_axis(&place[place_of(fap)], axis_error(s, want, got, fap), fap);
     *out = (fap_frame_error){ 0 };
-    for (int place = 0; place < PLACES; place++)
-        if (last[place])
-            add_place(out, square[place], last[place]);
+    for (int i = 0; i < PLACES; i++)
+        if (place[i].axes)
+            add_place(out, &place[i]);
     if (out->items)
         out->mean_nm = (uint32_t)rounded_ratio((int64_t)out->sum_nm, out->items);
 }
