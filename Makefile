@@ -106,12 +106,18 @@ $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-render.a
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)
 
+# Streams written field by field (docs/conformance.md). Needs no cmocka: it runs wherever libfap does.
+CONF_SRC := $(wildcard tests/conformance/*.c)
+$(B)/conformance: $(call obj,$(CONF_SRC)) $(B)/libfap.a
+	$(call SAY,LD)
+	$(Q)$(LINK) -lm
+
 setup:             ## install the Debian packages that are missing (scripts/packages.txt)
 	$(Q)scripts/setup
 
 test: setup        ## install what is missing, build, run every test
 	+$(Q)$(MAKE) --no-print-directory config=$(config) check
-check: all face $(B)/unit $(REPLAY) $(B)/examples
+check: all face $(B)/unit $(B)/conformance $(REPLAY) $(B)/examples
 	$(Q)B=$(B) tests/run
 unit: $(B)/unit    ## unit tests alone
 	$(Q)$(B)/unit

@@ -51,9 +51,20 @@ void fap_fba_seek_plane(fap_bits *b, int drafts)
         b->at += 8;
 }
 
+/*
+ * Stuffing may be followed by the beginning of a start code that was cut: 00, 00 00 or 00 00 01. No plane looks like
+ * that, as every run has a 1 in it, but for a body's behind "01".
+ */
 int fap_fba_is_used_up(const fap_bits *b)
 {
-    return b->at == b->end || (b->at + 8 >= b->end && b->at + (uint64_t)stuffing(b, b->at) == b->end);
+    const int n = stuffing(b, b->at), is_body = n == 2;
+
+    if (!n)
+        return b->at == b->end;
+    const uint64_t rest = b->end - b->at - (uint64_t)n;
+    if (rest > (is_body ? 16 : 24))
+        return 0;
+    return fap_bits_peek(b, b->at + (uint64_t)n, (int)rest) == (uint32_t)FBA_START_PREFIX >> (24 - rest);
 }
 
 /* A plane cannot begin with three 0s: fba_object_mask would be 0. */

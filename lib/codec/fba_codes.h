@@ -18,7 +18,7 @@ void fap_fba_seek_code(fap_bits *b);
  * come up (two arithmetic runs meet), so those of drafts count only with @p drafts.
  */
 void fap_fba_seek_plane(fap_bits *b, int drafts);
-/* Nothing is left but stuffing. */
+/* Nothing is left but stuffing, and perhaps a start code that was cut. */
 int fap_fba_is_used_up(const fap_bits *b);
 /* What is left is less than a byte of 0s. */
 int fap_fba_is_padding(const fap_bits *b);
