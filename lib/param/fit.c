@@ -326,7 +326,7 @@ static int evaluate(const fap_fit *t, const fit_rule *r, const fit_sources *s, i
         d = sum_of_terms(t, term + r->terms[FIT_NUMERATOR], r->terms[FIT_DENOMINATOR], s);
     if (!is_finite(n) || !is_finite(d) || (d < smallest_denominator && d > -smallest_denominator))
         return 0;
-    *value = value_of(n / d);
+    *value = value_of(d == 1 ? n : n / d);
     return 1;
 }
 
