@@ -85,6 +85,16 @@ typedef struct fap_fit_node {
 FAP_API FAP_NODISCARD fap_err fap_fit_open(fap_fit **fit, const fap_fit_node *node,
                                            const fap_allocator *alloc, char *where);
 
+/**
+ * The fields of a FIT node that says the same, for a sender. One block of memory. Coefficients become floats.
+ * @return FAP_OK; FAP_E_NOMEM; FAP_E_ARG; FAP_E_UNSUPPORTED a condition on a FAP in an edge without viseme and
+ *         expression parts, which a node cannot say. *node is NULL unless FAP_OK.
+ */
+FAP_API FAP_NODISCARD fap_err fap_fit_to_node(const fap_fit *fit, fap_fit_node **node,
+                                              const fap_allocator *alloc);
+/** Sets @p *node, of fap_fit_to_node(), to NULL; accepts NULL. */
+FAP_API void fap_fit_node_close(fap_fit_node **node);
+
 /** Writes the text; what it writes parses into an equal table. @return FAP_OK; FAP_E_IO; FAP_E_ARG */
 FAP_API FAP_NODISCARD fap_err fap_fit_write(const fap_fit *fit, const fap_writer *out);
 /** 1: an edge of the table ends at @p fap. */
@@ -94,9 +104,10 @@ FAP_API int fap_fit_gives(const fap_fit *fit, int fap);
  * FAP_DERIVED and serve as sources themselves. The edges are gone through in order, and again as long as that
  * gives a FAP; no formula is computed twice, so a cycle ends. Idempotent; allocates nothing; NULL does nothing.
  *
- * Doubles, + - * / alone, in the order of the text: the same on every machine with IEEE arithmetic. The value is
- * rounded, halves away from zero, and kept within +-2^30. A formula has no value, and the FAP is left to the
- * next edge, where the denominator is within +-1e-9 or either sum is not finite.
+ * Doubles, + - * / alone, terms in the order of the text, the factors of a term in that of their numbers: the same
+ * on every machine with IEEE arithmetic. The value is rounded, halves away from zero, and kept within +-2^30. A
+ * formula has no value, and the FAP is left to the next edge, where the denominator is within +-1e-9 or either sum
+ * is not finite.
  */
 FAP_API void fap_fit_apply(const fap_fit *fit, fap_frame *frame);
 /** What fap_fit_learn() looks for; start from fap_fit_learn_config_init(). */

@@ -151,34 +151,41 @@ fap_err fap_fit_add_term(fit_builder *b, int part, fit_number coefficient)
     return FAP_OK;
 }
 
-static fit_factor *find_factor(fit_builder *b, int source)
+/* Where @p source stands, or would, among the factors of the last term: they are in order. */
+static int place_of(const fit_builder *b, int source)
 {
-    for (int i = 0; i < b->term.factors; i++)
-        if (b->last[i].source == source)
-            return &b->last[i];
-    return NULL;
+    int at = 0;
+    while (at < b->term.factors && b->last[at].source < source)
+        at++;
+    return at;
+}
+
+static void store_factors(fit_builder *b)
+{
+    if (b->fit)
+        memcpy(b->fit->factor + b->term.first, b->last, b->term.factors * sizeof *b->last);
+    store_term(b);
 }
 
 /* A source named twice is one factor: there is one way to hold a product. */
 fap_err fap_fit_add_factor(fit_builder *b, int source, unsigned exponent)
 {
-    fit_factor *f = find_factor(b, source);
+    const int at = place_of(b, source), is_there = at < b->term.factors && b->last[at].source == source;
+    const unsigned sum = exponent + (is_there ? b->last[at].exponent : 0);
 
-    if (exponent > FAP_FIT_MAX_EXPONENT || (f && f->exponent + exponent > FAP_FIT_MAX_EXPONENT))
+    if (exponent > FAP_FIT_MAX_EXPONENT || sum > FAP_FIT_MAX_EXPONENT)
         return FAP_E_LIMIT;
     if (!exponent)
         return FAP_OK;
-    if (!f) {
-        if (b->factors == FAP_FIT_MAX_FACTORS)
-            return FAP_E_LIMIT;
-        f = &b->last[b->term.factors++];
-        *f = (fit_factor){ (uint8_t)source, 0 };
+    if (!is_there && b->factors == FAP_FIT_MAX_FACTORS)
+        return FAP_E_LIMIT;
+    if (!is_there) {
+        memmove(&b->last[at + 1], &b->last[at], (size_t)(b->term.factors - at) * sizeof *b->last);
+        b->term.factors++;
         b->factors++;
-        store_term(b);
     }
-    f->exponent = (uint8_t)(f->exponent + exponent);
-    if (b->fit)
-        b->fit->factor[b->term.first + (size_t)(f - b->last)] = *f;
+    b->last[at] = (fit_factor){ (uint8_t)source, (uint8_t)sum };
+    store_factors(b);
     return FAP_OK;
 }
 

@@ -471,6 +471,44 @@ TEST(fit, fields_that_contradict_each_other_are_refused)
     assert_int_equal(fap_fit_open(NULL, &sample, NULL, NULL), FAP_E_ARG);
 }
 
+/* Through the node and back: the same text. */
+static void survives_as_a_node(const char *text)
+{
+    sink first, second;
+    fap_fit *fit = parse(text), *again;
+    fap_fit_node *node;
+
+    assert_int_equal(fap_fit_to_node(fit, &node, NULL), FAP_OK);
+    assert_int_equal(fap_fit_open(&again, node, NULL, NULL), FAP_OK);
+    fap_fit_node_close(&node);
+    assert_null(node);
+    assert_string_equal(written(again, &second), written(fit, &first));
+    fap_fit_close(&fit);
+    fap_fit_close(&again);
+}
+
+TEST(fit, a_table_survives_as_a_node)
+{
+    survives_as_a_node(HEAD);
+    survives_as_a_node(HEAD
+                       "from f53 f59\nf60 = (0.5*f59 + 0.1*f53^2) / (1 + 0.01*f53)\nfrom\nf4 = -7\nf5 = 0\n");
+    survives_as_a_node(HEAD
+                       "from viseme_select1 f3\nf4 = 2*f3*[viseme_select1 = 3] - 0.123456*[f3 = -4] + f3^16\n"
+                       "f6 = 1e-9*f3\nfrom f4\nf3 = f4\n");
+}
+
+TEST(fit, what_a_node_cannot_say_is_an_error)
+{
+    fap_fit *fit = parse(HEAD "from f3\nf4 = [f3 = 1]\n");
+    fap_fit_node *node;
+
+    assert_int_equal(fap_fit_to_node(fit, &node, NULL), FAP_E_UNSUPPORTED);
+    assert_null(node);
+    assert_int_equal(fap_fit_to_node(NULL, &node, NULL), FAP_E_ARG);
+    fap_fit_node_close(&node);
+    fap_fit_close(&fit);
+}
+
 TEST(fit, an_empty_node_is_an_empty_table)
 {
     fap_fit *fit;
