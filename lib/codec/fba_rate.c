@@ -164,7 +164,7 @@ void fap_fba_balance(fap_encoder *e, int count, int intra, int round)
         for (int end = i; end < i + e->window.frames; end++)
             full = s->load[end] > full ? s->load[end] : full;
         const int level = s->level[i] + move_for(s, full, round);
-        s->level[i] = level < 0 ? 0 : level > SEARCH_LEVELS ? SEARCH_LEVELS : level;
+        s->level[i] = level < SEARCH_LEAST ? SEARCH_LEAST : level > SEARCH_LEVELS ? SEARCH_LEVELS : level;
     }
 }
 

@@ -10,7 +10,7 @@
 #include "bank/sensitivity.h"
 #include "codec/fba_search.h"
 
-enum { PASSES = 2, BALANCE_ROUNDS = 10, FULL = 1024, COARSE = 2 * SEARCH_OCTAVE };
+enum { PASSES = 2, BALANCE_ROUNDS = 12, COARSE_ROUNDS = 5, FULL = 1024, COARSE = 2 * SEARCH_OCTAVE };
 
 static const uint8_t quants[] = { 1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 30, 31 };
 enum { QUANTS = sizeof quants / sizeof *quants };
@@ -37,10 +37,14 @@ int fap_fba_search_open(fap_encoder *e)
     s->fixed = fap_mem_calloc(a, n, sizeof *s->fixed);
     s->moving = fap_mem_calloc(a, n, sizeof *s->moving);
     s->state = fap_mem_calloc(a, n, sizeof *s->state);
+    s->mix_want = fap_mem_calloc(a, n, sizeof *s->mix_want);
+    s->mix_path = fap_mem_calloc(a, n, sizeof *s->mix_path);
+    s->mix_state = fap_mem_calloc(a, n, sizeof *s->mix_state);
     s->sum = fap_mem_calloc(a, 2 * (n + 2 * WINDOW_MAX), sizeof *s->sum);
     s->load = fap_mem_calloc(a, n + WINDOW_MAX, sizeof *s->load);
     return s->want && s->column && s->next && s->best && s->best_left_out && s->still && s->lambda &&
-           s->level && s->fixed && s->moving && s->state && s->sum && s->load;
+           s->level && s->fixed && s->moving && s->state && s->mix_want && s->mix_path && s->mix_state &&
+           s->sum && s->load;
 }
 
 void fap_fba_search_close(fap_encoder *e)
@@ -49,6 +53,9 @@ void fap_fba_search_close(fap_encoder *e)
 
     if (!s)
         return;
+    fap_mem_free(&e->alloc, s->mix_state);
+    fap_mem_free(&e->alloc, s->mix_path);
+    fap_mem_free(&e->alloc, s->mix_want);
     fap_mem_free(&e->alloc, s->load);
     fap_mem_free(&e->alloc, s->sum);
     fap_mem_free(&e->alloc, s->state);
@@ -76,9 +83,10 @@ typedef struct lane {
     trellis t;
 } lane;
 
-static int is_exact(const fba_coded *c)
+/* A part of a viseme or an expression, which are found as a whole and have ranges of their own. */
+static int is_mixed(const fba_coded *c)
 {
-    return c->param < FBA_FIRST_FAP; /* visemes and expressions are mixes: only their strengths are rounded */
+    return c->param < FBA_FIRST_FAP;
 }
 
 static int32_t level_at(const lane *l, const int32_t *place, int i)
@@ -102,14 +110,14 @@ static int load(const lane *l, const int32_t *place, int sign)
 
 static fba_range widest_range(const lane *l)
 {
-    if (l->intra && !is_exact(l->c))
+    if (l->intra && !is_mixed(l->c))
         return (fba_range){ (int16_t)-l->t.widest, (int16_t)l->t.widest };
     return fap_fba_param_range(l->intra ? &l->e->plan : &l->e->face.setup, l->c->param, 0);
 }
 
 static fba_range range_of_path(const lane *l, const int32_t *place)
 {
-    if (!l->intra || is_exact(l->c))
+    if (!l->intra || is_mixed(l->c))
         return widest_range(l);
     fap_fba_fit_range(l->e, l->c->param, place, 1, l->count);
     return fap_fba_param_range(&l->e->plan, l->c->param, 0);
@@ -152,7 +160,7 @@ static void round_path(const lane *l, int32_t *place)
         const int32_t nearest = fap_fba_nearest(t->want[i], t->step);
         const int32_t from = i ? place[i - 1] : t->start;
         if (i == 0 && t->intra)
-            place[i] = is_exact(l->c) ? nearest : between(nearest, -t->widest, t->widest);
+            place[i] = between(nearest, -t->widest, t->widest);
         else
             place[i] = t->still[i] ? from : from + between(nearest - from, t->range.min, t->range.max);
     }
@@ -231,19 +239,80 @@ static void find_path(lane *l)
         memcpy(s->column, s->next, (size_t)l->count * sizeof *s->column);
 }
 
-static void try_lane(lane *l)
+static void try_fap(lane *l)
 {
     fap_encoder *e = l->e;
 
     prepare(l);
-    if (is_exact(l->c))
-        round_path(l, e->search->column);
-    else
-        find_path(l);
+    find_path(l);
     for (int i = 0; i < l->count; i++)
         e->path[i][l->c->param] = e->search->column[i];
-    if (!is_exact(l->c))
-        e->search->error += path_error(l, e->search->column);
+    e->search->error += path_error(l, e->search->column);
+}
+
+/* --- visemes and expressions --- */
+
+static void load_mix(fap_encoder *e, const fba_coded *c, int fields, mix_search *m)
+{
+    fba_costs *costs = &e->search->costs;
+
+    for (int k = 0; k < fields; k++) {
+        const int min = c[k].symbols[FBA_P].min;
+        m->size[k] = c[k].symbols[FBA_P].size;
+        m->start.field[k] = (int8_t)e->at[c[k].param];
+        memset(m->carried[k], 0, sizeof m->carried[k]);
+        if (m->intra)
+            continue;
+        m->carried_sum = fap_fba_costs_load(costs, &e->model[c[k].param], &e->pool, min, 1);
+        memcpy(&m->carried[k][1], &costs->count[COST_LEVELS - MIX_LEVELS + 1],
+               (2 * MIX_LEVELS - 1) * sizeof(uint16_t));
+        fap_fba_costs_load(costs, &e->model[c[k].param], &e->pool, min, -1);
+    }
+}
+
+/* FAP 1 or 2, whose parameters are @p c and those behind it. */
+static void try_mix(fap_encoder *e, const fba_coded *c, int count, int intra)
+{
+    fba_search *s = e->search;
+    mix_search *m = &s->mix;
+    const int is_expression = c->fap == 2, fields = is_expression ? 4 : 3;
+
+    m->costs = &s->costs;
+    m->want = s->mix_want;
+    m->lambda = s->lambda;
+    m->still = s->still;
+    m->state = s->mix_state;
+    m->count = count;
+    m->intra = intra;
+    m->is_expression = is_expression;
+    m->step = c[is_expression ? 1 : 2].step;
+    m->most = c[is_expression ? 1 : 2].symbols[FBA_I].size - 1;
+    m->nm = e->sensitivity.nm[c->fap];
+    m->permitted = e->cfg.mode == FAP_ENCODE_ERROR ? 2 * e->permitted[c->fap] : -1;
+    m->carried_sum = 0;
+    load_mix(e, c, fields, m);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < fields; k++)
+            s->mix_want[i].field[k] = (int8_t)s->want[(size_t)c[k].param * (size_t)e->capacity + (size_t)i];
+    s->error += fap_fba_mix(m, s->mix_path);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < fields; k++)
+            e->path[i][c[k].param] = s->mix_path[i].field[k];
+}
+
+static uint64_t mix_error(fap_encoder *e, const fba_coded *c, int i, const int32_t *place)
+{
+    mix_search *m = &e->search->mix;
+    mix_value want = { { 0 } }, got = { { 0 } };
+
+    m->is_expression = c->fap == 2;
+    m->step = c[m->is_expression ? 1 : 2].step;
+    m->nm = e->sensitivity.nm[c->fap];
+    for (int k = 0; k < (m->is_expression ? 4 : 3); k++) {
+        want.field[k] = (int8_t)e->search->want[(size_t)c[k].param * (size_t)e->capacity + (size_t)i];
+        got.field[k] = (int8_t)place[c[k].param];
+    }
+    return fap_fba_mix_error(m, &want, &got);
 }
 
 /* --- a trial --- */
@@ -258,11 +327,12 @@ static int says_the_same(const fap_frame *a, const fap_frame *b, const uint8_t *
 /* P planes that change nothing. */
 static void leave_out(fap_encoder *e, const fba_coded_list *list, int count, int intra)
 {
+    const uint8_t *coded = intra ? e->plan.coded : e->face.setup.coded;
+
     for (int i = 0; i < count; i++) {
         const int32_t *from = i ? e->path[i - 1] : e->at;
-        int same = e->cfg.skip &&
-                   (i ? says_the_same(&e->queue[i].frame, &e->queue[i - 1].frame, e->plan.coded)
-                      : !intra && says_the_same(&e->queue[0].frame, &e->last_frame, e->face.setup.coded));
+        const fap_frame *before = i ? &e->queue[i - 1].frame : &e->last_frame;
+        int same = e->cfg.skip && (i || !intra) && says_the_same(&e->queue[i].frame, before, coded);
         for (int k = 0; same && k < list->count; k++)
             same = e->path[i][list->of[k].param] == from[list->of[k].param];
         e->left_out[i] = (uint8_t)same;
@@ -280,10 +350,70 @@ static void charge(lane *l)
     path_rate(l, s->column, e->left_out, s->moving);
     if (!l->intra)
         return;
-    if (!is_exact(l->c))
+    if (!is_mixed(l->c))
         fap_fba_set_range(&e->plan, FBA_I, l->c->param, between(s->column[0], INT32_MIN, 0),
                           between(s->column[0], 0, INT32_MAX));
     s->fixed[0] += fba_cost_of_size(&s->costs, fba_range_size(fap_fba_param_range(&e->plan, l->c->param, 1)));
+}
+
+static void try_frames(fap_encoder *e, const fba_coded_list *list, int count, int intra)
+{
+    fba_search *s = e->search;
+
+    s->error = s->bits = 0;
+    for (int k = 0; k < list->count; k++)
+        if (!is_mixed(&list->of[k]))
+            try_fap(&(lane){ e, &list->of[k], count, intra, { 0 } });
+        else if (k == 0 || list->of[k - 1].fap != list->of[k].fap)
+            try_mix(e, &list->of[k], count, intra);
+    leave_out(e, list, count, intra);
+    for (int i = 0; i < count; i++) {
+        s->fixed[i] = fap_fba_overhead(e, i, intra);
+        s->moving[i] = 0;
+    }
+    for (int k = 0; k < list->count; k++)
+        charge(&(lane){ e, &list->of[k], count, intra, { 0 } });
+    for (int i = 0; i < count; i++)
+        s->bits += s->fixed[i] + s->moving[i];
+}
+
+/* --- frames that are not worth their bits --- */
+
+/* Of frame @p i, if it shows what was planned for frame @p shown; -1: what was before. */
+static uint64_t error_if_shown(fap_encoder *e, const fba_coded_list *list, int intra, int i, int shown)
+{
+    const int32_t *place = shown < 0 ? e->at : e->path[shown];
+    uint64_t error = 0;
+
+    for (int k = 0; k < list->count; k++) {
+        const fba_coded *c = &list->of[k];
+        const int is_head = k == 0 || list->of[k - 1].fap != c->fap;
+        if (is_mixed(c) && is_head)
+            error += mix_error(e, c, i, place);
+        else if (!is_mixed(c)) {
+            lane l = { e, c, 0, intra, { 0 } };
+            prepare(&l);
+            error += fap_fba_error(&l.t, l.t.want[i], place[c->param]);
+        }
+    }
+    return error;
+}
+
+/* One after the other: would it cost less to show the last frame that is sent once more? */
+static int mark_still(fap_encoder *e, const fba_coded_list *list, int count, int intra)
+{
+    fba_search *s = e->search;
+    int last = intra ? 0 : -1, marked = 0;
+
+    for (int i = intra; i < count; i++) {
+        const uint64_t bits = s->fixed[i] + s->moving[i];
+        const uint64_t stays = error_if_shown(e, list, intra, i, last),
+                       moves = error_if_shown(e, list, intra, i, i);
+        s->still[i] = bits && stays < moves + (s->lambda[i] * bits >> 8);
+        marked += s->still[i];
+        last = s->still[i] ? last : i;
+    }
+    return marked;
 }
 
 void fap_fba_try(fap_encoder *e, int count, int intra)
@@ -299,18 +429,10 @@ void fap_fba_try(fap_encoder *e, int count, int intra)
     const fba_coded_list *list = intra ? &e->plan_list : &e->face.list;
     for (int i = 0; i < count; i++)
         s->lambda[i] = ((uint64_t)part[s->level[i] % SEARCH_OCTAVE] << s->level[i] / SEARCH_OCTAVE) >> 12;
-    s->error = s->bits = 0;
-    for (int k = 0; k < list->count; k++)
-        try_lane(&(lane){ e, &list->of[k], count, intra, { 0 } });
-    leave_out(e, list, count, intra);
-    for (int i = 0; i < count; i++) {
-        s->fixed[i] = fap_fba_overhead(e, i, intra);
-        s->moving[i] = 0;
-    }
-    for (int k = 0; k < list->count; k++)
-        charge(&(lane){ e, &list->of[k], count, intra, { 0 } });
-    for (int i = 0; i < count; i++)
-        s->bits += s->fixed[i] + s->moving[i];
+    memset(s->still, 0, (size_t)count);
+    try_frames(e, list, count, intra);
+    if (e->cfg.skip && e->cfg.mode == FAP_ENCODE_BITRATE && mark_still(e, list, count, intra))
+        try_frames(e, list, count, intra);
 }
 
 /* --- searches --- */
@@ -340,7 +462,8 @@ static int try_level(fap_encoder *e, int count, int intra, int level)
 static void find_level(fap_encoder *e, int count, int intra, int grain)
 {
     fba_search *s = e->search;
-    int level = s->common_level, step = COARSE, low = 0, high = SEARCH_LEVELS;
+    int level = s->common_level < SEARCH_LEAST ? SEARCH_LEAST : s->common_level, step = COARSE,
+        low = SEARCH_LEAST, high = SEARCH_LEVELS;
 
     while (high - low > grain) {
         if (try_level(e, count, intra, level))
@@ -367,11 +490,36 @@ static void restore_trial(fap_encoder *e, int count)
     memcpy(e->left_out, e->search->best_left_out, (size_t)count);
 }
 
+/* How good a trial is: those that keep to the windows come first, by their error. */
+static uint64_t badness(int full, uint64_t error)
+{
+    const uint64_t over = (uint64_t)1 << 62;
+    return full <= FULL ? (error < over ? error : over - 1) : over + (uint64_t)full;
+}
+
+/* The best of some rounds that keeps to the windows, or else the one that comes nearest to it. */
+static uint64_t balance(fap_encoder *e, int count, int intra, int rounds)
+{
+    uint64_t least = UINT64_MAX;
+
+    for (int round = 0; round < rounds; round++) {
+        fap_fba_try(e, count, intra);
+        const uint64_t bad = badness(fap_fba_fullest(e, count, intra), e->search->error);
+        if (bad < least) {
+            least = bad;
+            keep_trial(e, count);
+        }
+        fap_fba_balance(e, count, intra, round);
+    }
+    restore_trial(e, count);
+    return least;
+}
+
 static uint64_t error_at(fap_encoder *e, int count, int quant)
 {
     e->plan.quant = quants[quant];
-    find_level(e, count, 1, SEARCH_OCTAVE / 2);
-    return is_too_much(e, count, 1) ? UINT64_MAX : e->search->error;
+    find_level(e, count, 1, SEARCH_OCTAVE);
+    return balance(e, count, 1, COARSE_ROUNDS);
 }
 
 static int index_of(int quant)
@@ -409,34 +557,13 @@ static void find_quant(fap_encoder *e, int count)
     e->plan.quant = quants[at];
 }
 
-/* The best of some rounds that keeps to the windows, or else the one that comes nearest to it. */
-static void balance(fap_encoder *e, int count, int intra)
-{
-    fba_search *s = e->search;
-    uint64_t least = UINT64_MAX;
-    int fullest = INT32_MAX;
-
-    for (int round = 0; round < BALANCE_ROUNDS; round++) {
-        fap_fba_try(e, count, intra);
-        const int full = fap_fba_fullest(e, count, intra);
-        const int better = full <= FULL ? fullest > FULL || s->error < least : full < fullest;
-        if (better) {
-            least = s->error;
-            fullest = full;
-            keep_trial(e, count);
-        }
-        fap_fba_balance(e, count, intra, round);
-    }
-    restore_trial(e, count);
-}
-
 static void search_bitrate(fap_encoder *e, int count, int intra)
 {
     if (intra)
         find_quant(e, count);
     find_level(e, count, intra, SEARCH_OCTAVE / 4);
     if (count > 1)
-        balance(e, count, intra);
+        balance(e, count, intra, BALANCE_ROUNDS);
 }
 
 /* --- FAP_ENCODE_ERROR --- */
@@ -525,7 +652,6 @@ void fap_fba_search_run(fap_encoder *e, int count, int intra)
 {
     if (!intra)
         fap_fba_gather(e, count);
-    memset(e->search->still, 0, (size_t)count);
     if (e->cfg.mode == FAP_ENCODE_ERROR)
         search_error(e, count, intra);
     else

@@ -4,9 +4,11 @@
 #define LIB_CODEC_FBA_SEARCH_H
 
 #include "codec/fba_encode.h"
+#include "codec/fba_mix.h"
 #include "codec/fba_trellis.h"
 
-enum { SEARCH_OCTAVE = 16, SEARCH_LEVELS = 34 * SEARCH_OCTAVE }; /* of lambda */
+/* Logarithms of lambda; at the least one it is 2 micrometres squared a bit. */
+enum { SEARCH_OCTAVE = 16, SEARCH_LEAST = 10 * SEARCH_OCTAVE, SEARCH_LEVELS = 34 * SEARCH_OCTAVE };
 
 typedef struct fba_search {
     fba_costs costs;
@@ -20,9 +22,12 @@ typedef struct fba_search {
     trellis_state (*state)[TRELLIS_STATES]; /* [capacity] */
     int64_t *sum;                           /* [2 * (capacity + 2 * WINDOW_MAX)] */
     int32_t *load;                          /* [capacity + WINDOW_MAX] */
-    int quant, common_level;                /* of the run before; quant 0: none yet */
-    int64_t intra_bits;                     /* of the last I plane */
-    uint64_t error, bits;                   /* of the last trial */
+    mix_search mix;
+    mix_value *mix_want, *mix_path;     /* [capacity] */
+    mix_state (*mix_state)[MIX_STATES]; /* [capacity] */
+    int quant, common_level;            /* of the run before; quant 0: none yet */
+    int64_t intra_bits;                 /* of the last I plane */
+    uint64_t error, bits;               /* of the last trial */
 } fba_search;
 
 /* --- fba_search.c --- */
