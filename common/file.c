@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See file.h. */
 #include <errno.h>
+#include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -51,6 +53,72 @@ fap_err file_read(const char *path, size_t max, uint8_t **data, size_t *size)
     return err;
 }
 
+/* --- temporaries --- */
+
+/* What a signal has to remove. One thread opens and commits; the handler reads. A name that finds no slot would be
+ * left behind by a signal, and by nothing else. */
+static _Atomic(const char *) pending[16];
+
+enum { PENDING_COUNT = sizeof pending / sizeof *pending };
+
+/* SA_RESETHAND has put the default action back: raised again, the signal ends the program as it should. */
+static void remove_pending(int sig)
+{
+    for (int i = 0; i < PENDING_COUNT; i++) {
+        const char *const temp = atomic_load(&pending[i]);
+        if (temp)
+            unlink(temp);
+    }
+    raise(sig);
+}
+
+static const int deadly[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE };
+
+enum { DEADLY_COUNT = sizeof deadly / sizeof *deadly };
+
+/* Signals that somebody ignores or handles already stay as they are. */
+static void catch_signals(void)
+{
+    const struct sigaction ours = { .sa_handler = remove_pending, .sa_flags = (int)SA_RESETHAND };
+    struct sigaction old;
+
+    for (int i = 0; i < DEADLY_COUNT; i++)
+        if (!sigaction(deadly[i], NULL, &old) && old.sa_handler == SIG_DFL)
+            sigaction(deadly[i], &ours, NULL);
+}
+
+static void replace_pending(const char *old, const char *now)
+{
+    for (int i = 0; i < PENDING_COUNT; i++)
+        if (atomic_load(&pending[i]) == old) {
+            atomic_store(&pending[i], now);
+            return;
+        }
+}
+
+/* Signals wait from the moment the file exists until it is known to the handler. */
+static int make_temporary(char *name)
+{
+    sigset_t wait, before;
+
+    catch_signals();
+    sigemptyset(&wait);
+    for (int i = 0; i < DEADLY_COUNT; i++)
+        sigaddset(&wait, deadly[i]);
+    sigprocmask(SIG_BLOCK, &wait, &before);
+    const int fd = mkstemp(name);
+    if (fd >= 0)
+        replace_pending(NULL, name);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    return fd;
+}
+
+static void remove_temporary(const char *name)
+{
+    unlink(name);
+    replace_pending(name, NULL);
+}
+
 /* mkstemp gives 0600; an output should get the mode that a plain fopen would have given it. */
 static void apply_umask(int fd)
 {
@@ -74,7 +142,7 @@ fap_err out_file_open(out_file *f, const char *path)
         goto fail;
     memcpy(f->temp, path, length);
     memcpy(f->temp + length, ".XXXXXX", sizeof ".XXXXXX");
-    const int fd = mkstemp(f->temp);
+    const int fd = make_temporary(f->temp);
     if (fd < 0)
         goto fail;
     apply_umask(fd);
@@ -82,7 +150,7 @@ fap_err out_file_open(out_file *f, const char *path)
     if (f->stream)
         return FAP_OK;
     close(fd);
-    unlink(f->temp);
+    remove_temporary(f->temp);
 fail:
     free(f->path);
     free(f->temp);
@@ -103,6 +171,7 @@ fap_err out_file_commit(out_file *f)
         out_file_abandon(f);
         return FAP_E_IO;
     }
+    replace_pending(f->temp, NULL);
     free(f->temp);
     free(f->path);
     *f = (out_file){ 0 };
@@ -114,7 +183,7 @@ void out_file_abandon(out_file *f)
     if (f->temp) {
         if (f->stream)
             fclose(f->stream);
-        unlink(f->temp);
+        remove_temporary(f->temp);
     }
     free(f->temp);
     free(f->path);

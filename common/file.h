@@ -14,7 +14,8 @@
 /* Reads all of @p path ("-": standard input) into malloc'ed memory, one NUL behind it. FAP_E_LIMIT past @p max bytes. */
 fap_err file_read(const char *path, size_t max, uint8_t **data, size_t *size);
 
-/* An output that is written to a temporary name beside its target and renamed when whole. */
+/* An output that is written to a temporary name beside its target and renamed when whole. A signal that ends
+ * the program (Ctrl-C) removes the temporary. */
 typedef struct out_file {
     FILE *stream;      /* write here */
     char *path, *temp; /* temp is NULL for standard output */

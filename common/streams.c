@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <fap/decoder.h>
-
 #include "common/streams.h"
 
 /* --- reading --- */
@@ -37,9 +35,15 @@ static void take_notice(void *user, int64_t place, const char *text)
     s->notice[s->notice_count++].text = text;
 }
 
-static fap_err take_frame(stream_summary *s, const frame_sink *sink, const fap_frame *f)
+static int64_t frame_us(double rate_hz)
+{
+    return (int64_t)(1e6 / rate_hz + 0.5);
+}
+
+static fap_err take_frame(stream_summary *s, const frame_sink *sink, const fap_frame *f, double rate_hz)
 {
     s->frames++;
+    s->end_us = f->pts_us + frame_us(rate_hz);
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
         stream_fap *c = &s->fap[fap];
         const int32_t v = f->value[fap];
@@ -53,7 +57,8 @@ static fap_err take_frame(stream_summary *s, const frame_sink *sink, const fap_f
     return sink ? sink->put(sink->user, f) : FAP_OK;
 }
 
-static fap_err read_text(memory bytes, stream_summary *s, const frame_sink *sink, char *where)
+static fap_err read_text(memory bytes, const stream_options *options, stream_summary *s,
+                         const frame_sink *sink, char *where)
 {
     const fap_reader in = { read_memory, &bytes };
     fap_ascii_reader_config cfg;
@@ -62,6 +67,7 @@ static fap_err read_text(memory bytes, stream_summary *s, const frame_sink *sink
 
     s->format = "fap";
     fap_ascii_reader_config_init(&cfg);
+    cfg.strict = options->strict;
     cfg.notice = take_notice;
     cfg.notice_user = s;
     fap_err err = fap_ascii_reader_open(&reader, &in, &cfg, where);
@@ -69,72 +75,115 @@ static fap_err read_text(memory bytes, stream_summary *s, const frame_sink *sink
         return err;
     s->header = *fap_ascii_reader_header(reader);
     while (err == FAP_OK && (err = fap_ascii_reader_next(reader, &frame)) == FAP_OK)
-        err = take_frame(s, sink, &frame);
+        err = take_frame(s, sink, &frame, s->header.rate_hz);
     if (err != FAP_E_END)
         snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", fap_ascii_reader_last_error(reader));
     fap_ascii_reader_close(&reader);
     return err == FAP_E_END ? FAP_OK : err;
 }
 
-static void take_plane(stream_summary *s, const fap_plane_info *plane)
+/* A stream being decoded. */
+typedef struct bits_reading {
+    fap_decoder *decoder;
+    stream_summary *summary;
+    const frame_sink *sink;
+    double rate_hz; /* of the plane before */
+    int strict;
+    char *where;
+} bits_reading;
+
+static void take_plane(bits_reading *r, const fap_plane_info *plane, const fap_frame *frame)
 {
-    s->header.rate_hz = plane->rate_hz;
+    stream_summary *s = r->summary;
+
+    if (!s->frames)
+        s->header.rate_hz = plane->rate_hz;
+    s->rate_changes += s->frames && plane->rate_hz != r->rate_hz;
+    r->rate_hz = plane->rate_hz;
     s->intra_frames += plane->intra;
+    s->skipped += plane->skipped;
     for (int fap = 1; fap <= FAP_COUNT; fap++)
         s->fap[fap].bits += plane->fap_bits[fap];
+    if (r->sink && r->sink->plane)
+        r->sink->plane(r->sink->user, plane, frame);
+}
+
+static void take_broken(bits_reading *r)
+{
+    const char *const why = fap_decoder_last_error(r->decoder);
+
+    if (!r->summary->broken_planes++)
+        snprintf(r->where, FAP_ERROR_TEXT_SIZE, "%s", why);
+    if (r->sink && r->sink->broken)
+        r->sink->broken(r->sink->user, why);
 }
 
 /* A broken plane loses what stands before the next I plane, not the stream. */
-static fap_err receive_all(fap_decoder *d, stream_summary *s, const frame_sink *sink, char *where)
+static fap_err receive_all(bits_reading *r)
 {
     fap_frame frame;
 
     for (;;) {
-        const fap_err err = fap_decoder_receive(d, &frame);
+        const fap_err err = fap_decoder_receive(r->decoder, &frame);
         if (err == FAP_E_AGAIN || err == FAP_E_END)
-            return s->frames ? FAP_OK : FAP_E_BITSTREAM;
+            break;
         if (err != FAP_OK) {
-            if (!s->broken_planes++)
-                snprintf(where, FAP_ERROR_TEXT_SIZE, "%s", fap_decoder_last_error(d));
+            take_broken(r);
+            if (r->strict)
+                return err;
             continue;
         }
-        take_plane(s, fap_decoder_plane(d));
-        const fap_err taken = take_frame(s, sink, &frame);
+        take_plane(r, fap_decoder_plane(r->decoder), &frame);
+        const fap_err taken = take_frame(r->summary, r->sink, &frame, r->rate_hz);
         if (taken != FAP_OK)
             return taken;
     }
+    if (!r->summary->frames && !r->summary->broken_planes)
+        snprintf(r->where, FAP_ERROR_TEXT_SIZE, "no face object plane in it");
+    return r->summary->frames ? FAP_OK : FAP_E_BITSTREAM;
 }
 
-static fap_err read_bits(memory bytes, stream_summary *s, const frame_sink *sink, char *where)
+static fap_err read_bits(memory bytes, const stream_options *options, stream_summary *s,
+                         const frame_sink *sink, char *where)
 {
+    bits_reading r = { .summary = s, .sink = sink, .strict = options->strict, .where = where };
     fap_decoder_config cfg;
-    fap_decoder *d;
 
     s->format = "fba";
     fap_decoder_config_init(&cfg);
+    cfg.strict = options->strict;
+    cfg.fit = options->fit;
     cfg.notice = take_notice;
     cfg.notice_user = s;
     cfg.symbol_memory = 65534;
-    fap_err err = fap_decoder_open(&d, &cfg);
+    fap_err err = fap_decoder_open(&r.decoder, &cfg);
     if (err != FAP_OK)
         return err;
-    err = fap_decoder_send(d, bytes.at, bytes.left);
+    err = fap_decoder_send(r.decoder, bytes.at, bytes.left);
     if (err == FAP_OK)
-        err = receive_all(d, s, sink, where);
-    fap_decoder_close(&d);
+        err = receive_all(&r);
+    fap_decoder_close(&r.decoder);
     return err;
 }
 
-fap_err stream_read(const uint8_t *data, size_t size, stream_summary *s, const frame_sink *sink, char *where)
+int stream_is_bits(const uint8_t *data, size_t size)
 {
     static const uint8_t start_code[3] = { 0, 0, 1 };
+
+    return size > sizeof start_code && !memcmp(data, start_code, sizeof start_code);
+}
+
+fap_err stream_read(const uint8_t *data, size_t size, const stream_options *options, stream_summary *s,
+                    const frame_sink *sink, char *where)
+{
+    static const stream_options plain = { 0 };
     const memory bytes = { data, size };
 
     *where = '\0';
     *s = (stream_summary){ .size = size, .header = { .rate_hz = 25 } };
-    if (size > sizeof start_code && !memcmp(data, start_code, sizeof start_code))
-        return read_bits(bytes, s, sink, where);
-    return read_text(bytes, s, sink, where);
+    if (!options)
+        options = &plain;
+    return (stream_is_bits(data, size) ? read_bits : read_text)(bytes, options, s, sink, where);
 }
 
 /* --- writing --- */

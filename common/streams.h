@@ -4,6 +4,7 @@
 #define COMMON_STREAMS_H
 
 #include <fap/ascii.h>
+#include <fap/decoder.h>
 #include <fap/encoder.h>
 
 enum { STREAM_MAX_NOTICES = 16 };
@@ -18,8 +19,11 @@ typedef struct stream_fap {
 /* What a stream holds. */
 typedef struct stream_summary {
     const char *format;      /* "fap" or "fba" */
-    fap_ascii_header header; /* an .fba has a rate and no more */
+    fap_ascii_header header; /* an .fba has a rate, its first, and no more */
     uint64_t frames, intra_frames, broken_planes, size;
+    uint64_t skipped;      /* frames of an .fba that lie between those that were sent */
+    uint64_t rate_changes; /* of an .fba */
+    int64_t end_us;        /* when the last frame is over */
     stream_fap fap[FAP_COUNT + 1];
     struct {
         int64_t where; /* line or bit */
@@ -28,15 +32,28 @@ typedef struct stream_summary {
     int notice_count;
 } stream_summary;
 
+/* How a stream is read. */
+typedef struct stream_options {
+    int strict;         /* 1: every deviation from the standard is an error */
+    const fap_fit *fit; /* of an .fba; NULL: none */
+} stream_options;
+
 /* Takes one frame after the other; anything but FAP_OK ends the reading. */
 typedef struct frame_sink {
     fap_err (*put)(void *user, const fap_frame *frame);
     void *user;
+    /* Of an .fba, may be NULL: what the frame that is put next was made of; why a plane gave none. */
+    void (*plane)(void *user, const fap_plane_info *plane, const fap_frame *frame);
+    void (*broken)(void *user, const char *where);
 } frame_sink;
 
-/* Reads a whole stream, counts into @p s and hands frames to @p sink (may be NULL). @p where:
- * FAP_ERROR_TEXT_SIZE bytes. */
-fap_err stream_read(const uint8_t *data, size_t size, stream_summary *s, const frame_sink *sink, char *where);
+/* By its first bytes: 1 an .fba, 0 a .fap or nothing of ours. */
+int stream_is_bits(const uint8_t *data, size_t size);
+
+/* Reads a whole stream, counts into @p s and hands frames to @p sink (may be NULL). @p options: NULL is tolerant
+ * and without table. @p where: FAP_ERROR_TEXT_SIZE bytes; of the first broken plane when all went well. */
+fap_err stream_read(const uint8_t *data, size_t size, const stream_options *options, stream_summary *s,
+                    const frame_sink *sink, char *where);
 
 typedef struct stream_writer {
     fap_ascii_writer *text;

@@ -50,11 +50,11 @@ static fap_err put_all(stream_writer *w, const fap_ascii_header *header, const f
 {
     char where[FAP_ERROR_TEXT_SIZE];
     stream_summary again;
-    const frame_sink sink = { put_frame, w };
+    const frame_sink sink = { .put = put_frame, .user = w };
     fap_err err = FAP_OK;
 
     if (!src->frames)
-        return stream_read(src->data, src->size, &again, &sink, where);
+        return stream_read(src->data, src->size, NULL, &again, &sink, where);
     for (int64_t i = 0; i < header->frame_count && err == FAP_OK; i++)
         err = stream_writer_put(w, &src->frames[i]);
     return err;
@@ -121,7 +121,7 @@ static fap_err summarise(const options *opt, run_report *rep, const uint8_t *dat
     char where[FAP_ERROR_TEXT_SIZE] = "";
 
     rep->is_stream = 1;
-    const fap_err err = stream_read(data, size, &rep->stream, NULL, where);
+    const fap_err err = stream_read(data, size, NULL, &rep->stream, NULL, where);
     return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
 }
 

@@ -54,10 +54,10 @@ fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, stream_summ
 {
     char limit[FAP_ERROR_TEXT_SIZE] = "";
     append_target target = { t, limit };
-    const frame_sink sink = { append, &target };
+    const frame_sink sink = { .put = append, .user = &target };
 
     *t = (timeline){ 0 };
-    fap_err err = stream_read(data, size, summary, &sink, where);
+    fap_err err = stream_read(data, size, NULL, summary, &sink, where);
     if (!err && !t->count) {
         snprintf(where, FAP_ERROR_TEXT_SIZE, "the stream has no frames");
         err = FAP_E_DATA;

@@ -176,7 +176,7 @@ static fap_err sink_frame(void *user, const fap_frame *f)
 static int read_fap(take *t, const char *path)
 {
     char where[FAP_ERROR_TEXT_SIZE];
-    const frame_sink sink = { sink_frame, t };
+    const frame_sink sink = { .put = sink_frame, .user = t };
     stream_summary summary;
     uint8_t *data;
     size_t size;
@@ -184,7 +184,7 @@ static int read_fap(take *t, const char *path)
     *t = (take){ 0 };
     if (file_read(path, 1 << 26, &data, &size) != FAP_OK)
         return 0;
-    const fap_err err = stream_read(data, size, &summary, &sink, where);
+    const fap_err err = stream_read(data, size, NULL, &summary, &sink, where);
     free(data);
     t->rate_hz = summary.header.rate_hz;
     return err == FAP_OK && t->count && t->count >= shortest_s * t->rate_hz;
