@@ -66,6 +66,7 @@ enum {
     OPT_END,
     OPT_QUANT,
     OPT_INTRA,
+    OPT_PLANES,
     OPT_JSON,
     OPT_QUIET,
     OPT_HELP,
@@ -88,6 +89,7 @@ static const struct option long_options[] = {
     { "end", required_argument, NULL, OPT_END },
     { "quant", required_argument, NULL, OPT_QUANT },
     { "intra", required_argument, NULL, OPT_INTRA },
+    { "planes", no_argument, NULL, OPT_PLANES },
     { "json", no_argument, NULL, OPT_JSON },
     { "quiet", no_argument, NULL, OPT_QUIET },
     { "help", no_argument, NULL, OPT_HELP },
@@ -188,6 +190,7 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
     case OPT_QUANT: return whole_number(opt, "quant", arg, 0, 31, &opt->bits.quant);
     case OPT_INTRA: return whole_number(opt, "intra", arg, 1, 10000, &opt->bits.intra);
+    case OPT_PLANES: opt->planes = 1; return 1;
     case OPT_JSON: opt->json = 1; return 1;
     case OPT_QUIET: tool_quiet = 1; return 1;
     case OPT_HELP: fputs(help, stdout); return 0;

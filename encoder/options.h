@@ -17,6 +17,7 @@ typedef struct options {
     int rate_given;      /* --fps was there */
     fap_capture_config capture;
     fap_encoder_config bits; /* how an .fba is coded; its rate is the frames' */
+    int planes;              /* inspect: a line each */
     int json;
     int exit_status; /* when parsing says to stop */
 } options;

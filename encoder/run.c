@@ -125,6 +125,24 @@ static fap_err summarise(const options *opt, run_report *rep, const uint8_t *dat
     return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
 }
 
+static fap_err inspect(const options *opt, run_report *rep, const uint8_t *data, size_t size)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+    frame_sink sink;
+
+    rep->is_stream = 1;
+    if (!stream_is_bits(data, size))
+        return summarise(opt, rep, data, size);
+    rep->inspection = calloc(1, sizeof *rep->inspection);
+    if (!rep->inspection)
+        return fail(rep, FAP_E_NOMEM, opt->input, NULL);
+    rep->inspection->keep_planes = opt->planes;
+    sink = inspection_sink(rep->inspection);
+    const fap_err err = stream_read(data, size, NULL, &rep->stream, &sink, where);
+    inspection_end(rep->inspection, size);
+    return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
+}
+
 static fap_err write_capture(const options *opt, run_report *rep)
 {
     const fap_capture_report *r = fap_capture_report_get(rep->capture);
@@ -201,8 +219,7 @@ fap_err run(const options *opt, run_report *rep)
     const fap_err read = file_read(opt->input, max_input, &data, &size);
     if (read != FAP_OK)
         return fail_errno(rep, read, opt->input);
-    const fap_err err = opt->command == COMMAND_INSPECT ? summarise(opt, rep, data, size)
-                                                        : encode_bytes(opt, rep, data, size);
+    const fap_err err = (opt->command == COMMAND_INSPECT ? inspect : encode_bytes)(opt, rep, data, size);
     free(data);
     return err;
 }
@@ -211,4 +228,7 @@ void run_close(run_report *rep)
 {
     fap_take_close(&rep->take);
     fap_capture_close(&rep->capture);
+    if (rep->inspection)
+        inspection_free(rep->inspection);
+    free(rep->inspection);
 }

@@ -5,8 +5,9 @@
 
 #include <fap/studio/capture.h>
 
-#include "encoder/options.h"
 #include "common/streams.h"
+#include "encoder/inspection.h"
+#include "encoder/options.h"
 
 /* Everything that report.c needs; parts that do not apply are empty. */
 typedef struct run_report {
@@ -15,6 +16,7 @@ typedef struct run_report {
     fap_take *take;                       /* as read */
     fap_capture *capture;
     stream_summary stream;
+    inspection *inspection;    /* of an .fba that was inspected */
     fap_encoder_stats written; /* of an .fba that was written */
     int is_stream;             /* the input was a FAP file */
     int rate_assumed;          /* the take's rate is --fps, for want of a better one */
