@@ -44,6 +44,14 @@ static int begins_something(const fap_bits *b, int drafts)
     }
 }
 
+int fap_fba_is_badly_stuffed(const fap_bits *b)
+{
+    fap_bits aligned = *b;
+
+    aligned.at = (b->at + 7) / 8 * 8;
+    return b->at % 8 && begins_something(&aligned, 0);
+}
+
 void fap_fba_seek_plane(fap_bits *b, int drafts)
 {
     b->at = (b->at + 7) / 8 * 8;

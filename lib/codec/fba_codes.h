@@ -13,6 +13,8 @@
 int fap_fba_code_at(const fap_bits *b, uint64_t *at);
 /* Forward to the next start code or the end. */
 void fap_fba_seek_code(fap_bits *b);
+/* A start code follows at the next byte, but what is in front of it is no stuffing: some decoders look no closer. */
+int fap_fba_is_badly_stuffed(const fap_bits *b);
 /*
  * Forward to where a plane or object may begin, or the end code, or the end. Within planes the pattern of other codes does
  * come up (two arithmetic runs meet), so those of drafts count only with @p drafts.

@@ -14,13 +14,15 @@
 #include "codec/fba_body.h"
 #include "codec/fba_codes.h"
 #include "codec/fba_face.h"
+#include "codec/fba_header.h"
 #include "codec/fba_time.h"
+#include "codec/fba_trial.h"
 
 enum {
     STATE_MAX = 64 * 1024, /* bytes of a decoder with default options */
-    SKIP_MAX = 1 << 20,    /* frames; twelve hours at 25 a second */
     DCT_FRAMES = 16,       /* frames of one plane of DCT segments */
     BOUND_MAX = FBA_BOUND_MAX * FBA_BOUND_UNIT,
+    SURE = 8, /* frames whose expressions make more sense swapped */
 };
 
 #define DEVIATIONS(X)                                                                                        \
@@ -30,18 +32,16 @@ enum {
     X(FRAME_RATE, "a frame rate of 0 was ignored")                                                           \
     X(TIME_CODE, "a time code that goes back was ignored")                                                   \
     X(WAITING, "P planes without the I plane they need were left out")                                       \
-    X(AFTER_END, "data behind the end code was left out")
+    X(AFTER_END, "data behind the end code was left out")                                                    \
+    X(STUFFING, "the bits in front of a start code are no stuffing")                                         \
+    X(SILENT_BOUND, "no symbol ranges are sent, but +-1020 are used (an encoder known to do so)")            \
+    X(SWAPPED, "select2 and intensity1 of expressions are swapped (an encoder known to do so)")
 
 typedef enum deviation {
 #define X(name, text) DEV_##name,
     DEVIATIONS(X)
 #undef X
 } deviation;
-
-typedef struct plane_header {
-    int intra, has_face, has_body;
-    fba_time_fields time;
-} plane_header;
 
 struct fap_decoder {
     fap_allocator alloc;
@@ -58,6 +58,9 @@ struct fap_decoder {
     int lost;                   /* only a start code shows where the next plane is */
     int unit_lost;              /* send() was told that there is no unit */
     int waits;                  /* for an I plane, and what comes until then is concealed */
+    int silent_bound;           /* the bound of an encoder that does not say it, once recognised */
+    int swap_doubt;             /* frames that speak for swapped expressions; -1: none are */
+    fap_err late;               /* an error to be told after the frame that was saved */
 
     fba_face face;
     model model[FBA_PARAMS];
@@ -108,80 +111,80 @@ static fap_err note(fap_decoder *d, deviation which)
     return FAP_OK;
 }
 
-/* --- plane header --- */
-
-static void read_frame_rate(fap_bits *b, fba_time_fields *t)
+static fap_err read_header(fap_decoder *d, fba_header *h)
 {
-    const uint32_t frame_rate = fap_bits_get(b, 8), seconds = fap_bits_get(b, 4);
+    const char *what, *why;
+    const fap_err err = fap_fba_header_read(&d->bits, h, &what, &why);
 
-    t->rate_16 = 16 * frame_rate + seconds;
-    t->offset = (int)fap_bits_get(b, 1);
-}
-
-static void read_time_code(fap_bits *b, fba_time_fields *t)
-{
-    const uint32_t hours = fap_bits_get(b, 5), minutes = fap_bits_get(b, 6);
-
-    fap_bits_marker(b);
-    t->time_code_s = 3600 * hours + 60 * minutes + fap_bits_get(b, 6);
-}
-
-static void read_skip(fap_bits *b, fba_time_fields *t)
-{
-    uint32_t n;
-
-    do {
-        n = fap_bits_get(b, 4);
-        t->skipped += n;
-    } while (n == 15 && t->skipped <= SKIP_MAX);
-}
-
-static fap_err read_header(fap_decoder *d, plane_header *h)
-{
-    fap_bits *b = &d->bits;
-
-    *h = (plane_header){ 0 };
-    h->intra = (int)fap_bits_get(b, 1);
-    const uint32_t fba_object_mask = fap_bits_get(b, 2);
-    h->has_face = fba_object_mask & 1;
-    h->has_body = fba_object_mask >> 1;
-    if (b->bad == BITS_FINE && !fba_object_mask)
-        return fail(d, FAP_E_BITSTREAM, b->at, "fba_object_mask", "neither face nor body");
-    if (h->intra) {
-        h->time.is_frame_rate = (int)fap_bits_get(b, 1);
-        if (h->time.is_frame_rate)
-            read_frame_rate(b, &h->time);
-        h->time.is_time_code = (int)fap_bits_get(b, 1);
-        if (h->time.is_time_code)
-            read_time_code(b, &h->time);
-    }
-    if (fap_bits_get(b, 1))
-        read_skip(b, &h->time);
-    if (h->time.skipped > SKIP_MAX)
-        return fail(d, FAP_E_LIMIT, b->at, "number_of_frames_to_skip", "too many");
-    return check_bits(d, "plane header");
+    return err == FAP_OK ? err : fail(d, err, d->bits.bad ? d->bits.bad_at : d->bits.at, what, why);
 }
 
 /* --- planes --- */
 
+/* A first I plane without ranges; @p at: where its face data begins. */
+static fap_err recognise_bound(fap_decoder *d, uint64_t at, const fba_header *h)
+{
+    const fap_bits here = d->bits;
+
+    if (d->cfg.default_bound || h->has_body)
+        return FAP_OK;
+    d->bits.at = at;
+    d->silent_bound = fap_fba_trial(&d->bits, &d->face, d->model, &d->pool);
+    d->bits = here;
+    return d->silent_bound ? note(d, DEV_SILENT_BOUND) : FAP_OK;
+}
+
+/* Ranges are known, or they are sent, or the standard's or a recognised encoder's are taken. */
+static fap_err set_up_face(fap_decoder *d, fba_face_reader *r, fba_face *copy, const fba_header *h)
+{
+    const uint64_t at = d->bits.at;
+    fap_err err;
+
+    *copy = d->face;
+    err = fap_fba_face_set_up(r, copy);
+    if (err != FAP_OK)
+        return fail(d, err, r->at, r->what, r->why);
+    if (d->face.has_ranges || r->params_at != r->ranges_at)
+        return FAP_OK;
+    err = recognise_bound(d, at, h);
+    if (err != FAP_OK)
+        return err;
+    d->bits.at = at;
+    *copy = d->face;
+    r->default_bound = d->silent_bound ? d->silent_bound : d->cfg.default_bound;
+    err = fap_fba_face_set_up(r, copy);
+    return err == FAP_OK ? err : fail(d, err, r->at, r->what, r->why);
+}
+
 /* Of @p copy, P planes use the motion alone. */
-static fap_err read_face(fap_decoder *d, fba_face *copy, int intra)
+static fap_err read_face(fap_decoder *d, fba_face *copy, const fba_header *h)
 {
     const uint64_t start = d->bits.at;
     fba_face_reader r = { &d->bits, d->model, &d->pool, d->cfg.default_bound, start, start, 0, "", "" };
     fap_err err = FAP_OK;
 
-    if (intra) {
-        *copy = d->face;
-        err = fap_fba_face_set_up(&r, copy);
-    } else {
+    if (h->intra)
+        err = set_up_face(d, &r, copy, h);
+    else
         copy->motion = d->face.motion;
-    }
+    if (err != FAP_OK)
+        return err;
     d->info.setup_bits = (uint32_t)(r.ranges_at - start);
     d->info.range_bits = (uint32_t)(r.params_at - r.ranges_at);
-    if (err == FAP_OK)
-        err = fap_fba_face_move(&r, intra ? &copy->list : &d->face.list, &copy->motion, intra);
+    err = fap_fba_face_move(&r, h->intra ? &copy->list : &d->face.list, &copy->motion, h->intra);
     return err == FAP_OK ? err : fail(d, err, r.at, r.what, r.why);
+}
+
+/* Once is an accident: expressions may be selected before they are felt. */
+static fap_err recognise_swap(fap_decoder *d, const fba_motion *m)
+{
+    const int evidence = fap_fba_swap_evidence(m);
+
+    if (evidence < 0)
+        d->swap_doubt = -1;
+    else if (d->swap_doubt >= 0 && d->swap_doubt < SURE)
+        d->swap_doubt += evidence > 1 ? SURE : evidence;
+    return d->swap_doubt >= SURE ? note(d, DEV_SWAPPED) : FAP_OK;
 }
 
 static fap_err read_body(fap_decoder *d, int intra)
@@ -203,8 +206,8 @@ static void keep_face(fap_decoder *d, const fba_face *copy, int intra)
         d->face = *copy;
     else
         d->face.motion = copy->motion;
+    d->face.swapped = d->swap_doubt >= SURE;
     d->face_ready = 1;
-    d->segments = 0;
 }
 
 static void hold_all(fap_frame *f)
@@ -214,7 +217,7 @@ static void hold_all(fap_frame *f)
             f->state[fap] = FAP_HELD;
 }
 
-static void show_frame(fap_decoder *d, const plane_header *h)
+static void show_frame(fap_decoder *d, const fba_header *h)
 {
     hold_all(&d->frame);
     if (h->has_face)
@@ -247,7 +250,7 @@ static uint32_t bits_of_symbols(const fba_motion *m)
 }
 
 /* @p data: where the plane header ends. What the parts leave over is what arithmetic runs take to end, and flags. */
-static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start, uint64_t data)
+static void fill_info(fap_decoder *d, const fba_header *h, uint64_t start, uint64_t data)
 {
     fap_plane_info *i = &d->info;
 
@@ -269,7 +272,7 @@ static void fill_info(fap_decoder *d, const plane_header *h, uint64_t start, uin
 }
 
 /* Done as soon as the header is known: planes that cannot be decoded take their time all the same. */
-static fap_err advance(fap_decoder *d, const plane_header *h)
+static fap_err advance(fap_decoder *d, const fba_header *h)
 {
     const unsigned ignored = fap_fba_time_advance(&d->time, &h->time, d->segments ? DCT_FRAMES : 1);
     fap_err err = FAP_OK;
@@ -292,24 +295,42 @@ static void lose(fap_decoder *d, uint64_t at)
     d->face_ready = d->body_ready = 0;
 }
 
-static int can_decode(const fap_decoder *d, const plane_header *h)
+static int can_decode(const fap_decoder *d, const fba_header *h)
 {
-    return h->intra || ((!h->has_face || d->face_ready) && (!h->has_body || d->body_ready));
+    return h->intra || (h->has_face ? d->face_ready : d->body_ready);
 }
 
-static fap_err read_data(fap_decoder *d, const plane_header *h, fba_face *copy)
+/* Body data of the plane. What is wrong with it does not cost the face, when there is one. */
+static fap_err pass_body(fap_decoder *d, const fba_header *h)
+{
+    fap_err err = FAP_E_BITSTREAM;
+
+    if (!h->has_body)
+        return FAP_OK;
+    if (h->intra || d->body_ready)
+        err = read_body(d, h->intra);
+    else
+        fail(d, err, d->bits.at, "body data", "a P plane without the I plane it needs");
+    if (err == FAP_OK || !h->has_face)
+        return err;
+    d->late = err;
+    return FAP_OK;
+}
+
+static fap_err read_data(fap_decoder *d, const fba_header *h, fba_face *copy)
 {
     fap_err err = FAP_OK;
 
     d->info.setup_bits = d->info.range_bits = 0;
     if (h->has_face)
-        err = read_face(d, copy, h->intra);
-    d->info.body_bits = (uint32_t)d->bits.at;
-    if (err == FAP_OK && h->has_body)
-        err = read_body(d, h->intra);
-    d->info.body_bits = (uint32_t)d->bits.at - d->info.body_bits;
-    if (err == FAP_E_UNSUPPORTED)
-        d->segments = 1;
+        err = read_face(d, copy, h);
+    if (err == FAP_OK && h->has_face && (h->intra ? copy : &d->face)->setup.coded[2])
+        err = recognise_swap(d, &copy->motion);
+    const uint64_t body = d->bits.at;
+    if (err == FAP_OK)
+        err = pass_body(d, h);
+    d->info.body_bits = (uint32_t)(d->bits.at - body);
+    d->segments = err == FAP_E_UNSUPPORTED || d->late == FAP_E_UNSUPPORTED;
     return err;
 }
 
@@ -365,7 +386,7 @@ static fap_err pass_over(fap_decoder *d, uint64_t at, fap_frame *out)
 static fap_err read_plane(fap_decoder *d, uint64_t start, fap_frame *out)
 {
     const uint64_t at = d->bits.at;
-    plane_header h;
+    fba_header h;
     fba_face copy;
 
     d->planes++;
@@ -391,6 +412,10 @@ static fap_err read_plane(fap_decoder *d, uint64_t start, fap_frame *out)
     d->waits = 0;
     fill_info(d, &h, start, data);
     *out = d->frame;
+    if (d->late != FAP_OK) {
+        d->waits = 1;
+        lose(d, at);
+    }
     return FAP_OK;
 }
 
@@ -399,7 +424,7 @@ static fap_err read_plane(fap_decoder *d, uint64_t start, fap_frame *out)
 static void begin_object(fap_decoder *d)
 {
     d->face_ready = d->body_ready = d->lost = d->segments = d->waits = 0;
-    d->face.has_ranges = 0;
+    d->face.has_ranges = d->silent_bound = d->face.swapped = d->swap_doubt = 0;
     fap_fba_body_init(&d->body);
 }
 
@@ -467,7 +492,13 @@ static fap_err find_plane(fap_decoder *d, uint64_t *start)
         *start = b->at;
         if (fap_fba_is_used_up(b))
             return end_unit(d, FAP_E_AGAIN);
-        const int code = fap_fba_code_at(b, &b->at);
+        int code = fap_fba_code_at(b, &b->at);
+        if (code < 0 && fap_fba_is_badly_stuffed(b)) {
+            if (note(d, DEV_STUFFING) != FAP_OK)
+                return FAP_E_BITSTREAM;
+            b->at = (b->at + 7) / 8 * 8;
+            code = fap_fba_code_at(b, &b->at);
+        }
         if (code < 0)
             break;
         const fap_err err = take_code(d, code);
@@ -490,6 +521,11 @@ fap_err fap_decoder_receive(fap_decoder *d, fap_frame *out)
         return FAP_E_ARG;
     if (d->unit_lost)
         return conceal_unit(d, out);
+    if (d->late != FAP_OK) {
+        err = d->late;
+        d->late = FAP_OK;
+        return err;
+    }
     while (err == FAP_E_AGAIN && d->bits.data) {
         err = find_plane(d, &start);
         if (err == FAP_OK && !d->started) {
@@ -566,6 +602,7 @@ void fap_decoder_flush(fap_decoder *d)
 {
     end_unit(d, FAP_OK);
     d->face_ready = d->body_ready = d->unit_lost = d->waits = 0;
+    d->late = FAP_OK;
 }
 
 const fap_plane_info *fap_decoder_plane(const fap_decoder *d)

@@ -239,15 +239,38 @@ static fap_viseme viseme_of(const fba_motion *m)
                          clamp_strength(v[FBA_VISEME_BLEND]), m->viseme_def };
 }
 
-static fap_expression expression_of(const fba_motion *m)
+static fap_expression expression_of(const fba_motion *m, int swapped)
 {
     const int32_t *v = m->value;
+    const int select2 = swapped ? FBA_EXPRESSION_INTENSITY1 : FBA_EXPRESSION_SELECT2;
+    const int intensity1 = swapped ? FBA_EXPRESSION_SELECT2 : FBA_EXPRESSION_INTENSITY1;
+
     return (fap_expression){ (uint8_t)v[FBA_EXPRESSION_SELECT1],
-                             clamp_strength(v[FBA_EXPRESSION_INTENSITY1]),
-                             (uint8_t)v[FBA_EXPRESSION_SELECT2],
+                             clamp_strength(v[intensity1]),
+                             (uint8_t)v[select2],
                              clamp_strength(v[FBA_EXPRESSION_INTENSITY2]),
                              m->init_face,
                              m->expression_def };
+}
+
+/* An intensity of nothing. */
+static int is_odd(int32_t select, int32_t intensity)
+{
+    return !select && intensity;
+}
+
+int fap_fba_swap_evidence(const fba_motion *m)
+{
+    const int32_t *v = &m->value[FBA_EXPRESSION_SELECT1];
+    const int32_t select1 = v[0], second = v[1], third = v[2], intensity2 = v[3];
+
+    if (second < 0 || second > FAP_EXPRESSION_COUNT)
+        return -1; /* no selection */
+    if (is_odd(select1, third) || is_odd(second, intensity2))
+        return 0;
+    if (is_odd(select1, second) || is_odd(third, intensity2))
+        return 2;
+    return select1 && third && !second && !intensity2; /* two selected, none felt */
 }
 
 static void show_coded(const fba_face *face, fap_frame *f)
@@ -261,7 +284,7 @@ static void show_coded(const fba_face *face, fap_frame *f)
     if (face->setup.coded[1])
         f->viseme = viseme_of(m);
     if (face->setup.coded[2])
-        f->expression = expression_of(m);
+        f->expression = expression_of(m, face->swapped);
 }
 
 static int is_left_to_us(const fba_face *face, int fap)

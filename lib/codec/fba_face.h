@@ -21,6 +21,7 @@ typedef struct fba_motion {
 
 typedef struct fba_face {
     int has_ranges; /* the defaults were installed */
+    int swapped;    /* intensity1 stands in the place of select2 and the other way round */
     fba_setup setup;
     fba_coded_list list; /* of setup */
     fba_motion motion;
@@ -44,6 +45,11 @@ typedef struct fba_face_reader {
  */
 fap_err fap_fba_face_set_up(fba_face_reader *r, fba_face *face);
 fap_err fap_fba_face_move(fba_face_reader *r, const fba_coded_list *list, fba_motion *motion, int intra);
+/*
+ * What the expression slots of a plane say about their order: 2 only swapped do they make sense, 1 swapped they make more
+ * sense, 0 nothing, -1 they cannot be swapped.
+ */
+int fap_fba_swap_evidence(const fba_motion *m);
 /* The face in a frame: coded FAPs, and those that the stream leaves to the decoder, by @p fit (or NULL) first.
  * Others stay as they are. */
 void fap_fba_face_show(const fba_face *face, const fap_fit *fit, fap_frame *frame);
