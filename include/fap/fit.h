@@ -134,7 +134,7 @@ FAP_API void fap_fit_learn_config_init(fap_fit_learn_config *cfg);
  * Find FAPs that a take need not carry, since few of those that it goes on carrying give them: an empty table when
  * there are none. Formulas are polynomials of degree 1 or 2 without mixed terms, found by least squares and pushed
  * towards the smallest largest error; coefficients have as few digits as that allows. No FAP is both given and a
- * source. Only FAPs known in every frame take part, FAPs 1 and 2 do not.
+ * source. Only FAPs known in every frame take part, FAPs 1 and 2 do not; a term needs eight frames to stand on.
  *
  * @param frames  the take; FAPs of any state but FAP_ABSENT count
  * @param cfg     NULL: defaults

@@ -95,6 +95,7 @@ static void solve(const fit_system *s, double *coefficient)
     }
 }
 
+/* Adds a feature to those in @p taken. */
 static double extend_by_feature(const fit_data *d, fit_system *s, int column, const uint8_t *taken,
                                 int feature)
 {
@@ -253,7 +254,7 @@ static int is_taken(const fit_formula *f, int feature)
 }
 
 /* The feature that helps most; -1: none does. */
-static int best_feature(const fit_data *d, const fit_system *s, int column, const uint8_t *allowed,
+static int best_feature(const fit_data *d, fit_system *s, int column, const uint8_t *allowed,
                         const fit_formula *f)
 {
     double most = 0;
@@ -262,8 +263,8 @@ static int best_feature(const fit_data *d, const fit_system *s, int column, cons
     for (int feature = 0; feature < 1 + 2 * d->columns; feature++) {
         if (!is_allowed(feature, allowed) || is_taken(f, feature))
             continue;
-        fit_system tried = *s;
-        const double gain = extend_by_feature(d, &tried, column, f->feature, feature);
+        const double gain = extend_by_feature(d, s, column, f->feature, feature);
+        s->count = f->terms; /* only tried */
         if (gain > most) {
             most = gain;
             best = feature;
