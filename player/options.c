@@ -85,11 +85,27 @@ static int set_bank(play_options *o, const char *text)
 
 static int set_blend(play_options *o, const char *text)
 {
-    static const char *const names[] = { "zhu", "qp", "ga", NULL }; /* in the order of fap_blend */
-    const int i = name_index(text, names);
+    int i = 0;
 
+    while (fap_blend_name(i) && strcmp(text, fap_blend_name(i)))
+        i++;
     o->face.blend = (fap_blend)i;
-    return i >= 0;
+    return fap_blend_name(i) != NULL;
+}
+
+static int set_regions(play_options *o, const char *text)
+{
+    return small_integer(text, 1, 4, &o->face.regions) && o->face.regions != 3;
+}
+
+static int set_overlap(play_options *o, const char *text)
+{
+    double percent;
+
+    if (!real_number(text, 0, 50, &percent))
+        return 0;
+    o->face.overlap_percent = (float)percent;
+    return 1;
 }
 
 static int set_crossover(play_options *o, const char *text)
@@ -234,7 +250,9 @@ typedef struct option_row {
 static const option_row rows[] = {
     { "output", set_output, "a file name" },
     { "bank", set_bank, "a .fbank file or 'builtin'" },
-    { "blend", set_blend, "ga, zhu or qp" },
+    { "blend", set_blend, "ga, zhu, qp, pca or rbf" },
+    { "regions", set_regions, "1, 2 or 4" },
+    { "overlap", set_overlap, "a percentage from 0 to 50" },
     { "crossover", set_crossover, "midpoint, line or blx" },
     { "generations", set_generations, "a number from 0 to 100000" },
     { "emphasis", set_emphasis, "a number from 0 to 10" },
@@ -283,7 +301,9 @@ static const char help_text[] =
     "The face:\n"
     "  --bank B.fbank           the face (the default face; the built-in one where there is none); or "
     "'builtin'\n"
-    "  --blend ga|zhu|qp        how key models are blended (ga)\n"
+    "  --blend ga|zhu|qp|pca|rbf  how feature points become a face (ga)\n"
+    "  --regions 1|2|4          of the face, each solved by itself by ga and zhu (1)\n"
+    "  --overlap PCT            of the face on either side of a border, shared by both regions (20)\n"
     "  --crossover X            of the genetic algorithm: midpoint, line or blx (line)\n"
     "  --generations N          of the genetic algorithm (70)\n"
     "  --emphasis C             targets times C before blending (1)\n"

@@ -19,9 +19,15 @@ typedef struct fap_face fap_face;
 /** How blend weights are found. */
 typedef enum fap_blend {
     FAP_BLEND_ZHU, /**< the thesis's genetic algorithm, to the letter, on visemes, expressions and extra keys */
-    FAP_BLEND_QP, /**< bounded least squares on the units, per axis; on all keys where a bank has no units */
-    FAP_BLEND_GA, /**< the GA started from the least-squares solution; never worse than it in millimetres */
+    FAP_BLEND_QP,  /**< bounded least squares on the units, per axis; on all keys where a bank has no units */
+    FAP_BLEND_GA,  /**< the GA started from the least-squares solution; never worse than it in millimetres */
+    FAP_BLEND_PCA, /**< principal components of the key models, coefficients within 3 standard deviations */
+    FAP_BLEND_RBF, /**< no key models: a smooth field through the feature points (Hardy's multiquadrics) */
 } fap_blend;
+
+/** The method's name ("ga") and a line about it, for options and their help. NULL: no such method. */
+FAP_API const char *fap_blend_name(int blend);
+FAP_API const char *fap_blend_summary(int blend);
 
 /** Crossover of the GA; BLX with alpha 0.2. Source: Zhu 2006 eq. 3.4 to 3.6. */
 typedef enum fap_crossover { FAP_CROSSOVER_MIDPOINT, FAP_CROSSOVER_LINE, FAP_CROSSOVER_BLX } fap_crossover;
@@ -37,6 +43,9 @@ typedef struct fap_face_config {
     int residual;            /**< 1: put every commanded point exactly where the FAPs say */
     int blink; /**< 0; 1: blink by itself while the stream drives no lids (Lin et al. 2001 section 5.2) */
     fap_allocator alloc;
+    int regions; /**< 1, or 2 (left, right) or 4 (each half upper and lower): ZHU and GA solve each by itself */
+    float
+        overlap_percent; /**< 20: of the face's width, on either side of a border, shaped by both; 0 to 50 */
 } fap_face_config;
 
 /** Sets every default. */
@@ -74,6 +83,14 @@ FAP_API size_t fap_face_stride(const fap_face *face);
  * @param normal    the same layout, unit length; NULL: not wanted
  */
 FAP_API void fap_face_pose(fap_face *face, const fap_frame *frame, float *position, float *normal);
+/**
+ * Pose the face from feature points given in all three axes, as another face's motion or a capture has them. The same
+ * way as for FAPs; head, eyes and tongue's curl stay at rest.
+ * @param target_mm  displacement from neutral, head axes, millimetres, before emphasis; what is no number is not wanted
+ * @param wanted     1 where that axis is commanded; others are free
+ */
+FAP_API void fap_face_pose_points(fap_face *face, const float target_mm[FAP_POINT_COUNT][3],
+                                  const uint8_t wanted[FAP_POINT_COUNT][3], float *position, float *normal);
 /** Show key models directly: @p weight[key_count] (bank order), any value; head, eyes and residual stay neutral. */
 FAP_API void fap_face_pose_keys(fap_face *face, const float *weight, float *position, float *normal);
 /**
@@ -81,7 +98,8 @@ FAP_API void fap_face_pose_keys(fap_face *face, const float *weight, float *posi
  * its vertices; one without vertices follows the head.
  */
 FAP_API void fap_face_points(const fap_face *face, float points[FAP_POINT_COUNT][3]);
-/** Blend weights of the last pose, bank order, fap_bank_key_count() floats; valid until the next pose. */
+/** Blend weights of the last pose, bank order, fap_bank_key_count() floats; with regions, their mean. Valid until the
+ * next pose. */
 FAP_API const float *fap_face_weights(const fap_face *face);
 FAP_API void fap_face_last_stats(const fap_face *face, fap_face_stats *out);
 

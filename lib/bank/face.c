@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "bank/face.h"
+#include "bank/ga.h"
 #include "base/mem.h"
 
 enum { MOST_GENERATIONS = 100000 };
@@ -23,6 +24,8 @@ void fap_face_config_init(fap_face_config *cfg)
         .emphasis = 1,
         .seed = 1,
         .residual = 1,
+        .regions = 1,
+        .overlap_percent = 20,
     };
 }
 
@@ -35,8 +38,10 @@ static int read_config(fap_face_config *cfg, const fap_face_config *from)
     if (from->struct_size < offsetof(fap_face_config, generations) || from->struct_size > sizeof *cfg)
         return 0;
     memcpy(cfg, from, from->struct_size);
-    return cfg->blend <= FAP_BLEND_GA && cfg->crossover <= FAP_CROSSOVER_BLX && cfg->generations >= 0 &&
-           cfg->generations <= MOST_GENERATIONS && cfg->emphasis >= 0 && cfg->emphasis <= 10;
+    const int regions = cfg->regions == 1 || cfg->regions == 2 || cfg->regions == 4;
+    return fap_blend_name((int)cfg->blend) && cfg->crossover <= FAP_CROSSOVER_BLX && cfg->generations >= 0 &&
+           cfg->generations <= MOST_GENERATIONS && cfg->emphasis >= 0 && cfg->emphasis <= 10 && regions &&
+           cfg->overlap_percent >= 0 && cfg->overlap_percent <= 50;
 }
 
 /* --- open and close --- */
@@ -67,62 +72,16 @@ static void find_known_keys(fap_face *face)
     }
 }
 
-static void find_rivals(fap_face *face)
-{
-    static const struct pair {
-        const char *a, *b;
-        float stiffness_mm2;
-    } pairs[FAP_RIVALS] = {
-        { "mouthLeft", "mouthRight", 5 },          { "jawLeft", "jawRight", 5 },
-        { "eyeBlinkLeft", "eyeWideLeft", 1 },      { "eyeBlinkRight", "eyeWideRight", 1 },
-        { "mouthSmileLeft", "mouthFrownLeft", 1 }, { "mouthSmileRight", "mouthFrownRight", 1 },
-    };
-
-    for (int i = 0; i < FAP_RIVALS; i++) {
-        const int a = unit(face, pairs[i].a), b = unit(face, pairs[i].b);
-        if (a >= 0 && b >= 0)
-            face->rivals[face->rival_count++] = (fap_face_rivals){ { a, b }, pairs[i].stiffness_mm2 };
-    }
-}
-
-static int is_look(const fap_face *face, int key)
-{
-    const fap_face_keys *k = &face->known;
-
-    for (int right = 0; right < 2; right++)
-        if (key == k->look_up[right] || key == k->look_down[right] || key == k->look_in[right] ||
-            key == k->look_out[right])
-            return 1;
-    return 0;
-}
-
-/* Units are the basis of least squares, the gaze's own apart; a bank without units offers all its keys. */
-static void sort_keys(fap_face *face)
-{
-    int unit_count = 0;
-
-    for (int k = 0; k < face->key_count; k++) {
-        const int is_unit = face->key[k]->kind == FAP_KEY_UNIT;
-        face->population[k] = !is_unit;
-        face->free_key[k] = is_unit && !is_look(face, k);
-        unit_count += face->free_key[k];
-    }
-    for (int k = 0; k < face->key_count && !unit_count; k++)
-        face->free_key[k] = 1;
-}
-
 static void read_keys(fap_face *face)
 {
     for (int k = 0; k < face->key_count; k++) {
         face->key[k] = fap_bank_key_get(face->bank, k);
+        face->population[k] = face->key[k]->kind != FAP_KEY_UNIT;
         for (int row = 0; row < FAP_ROWS; row++)
             face->motion[(size_t)row * (size_t)face->key_count + (size_t)k] =
                 face->key[k]->point_mm[row / 3][row % 3];
     }
     find_known_keys(face);
-    find_rivals(face);
-    fap_face_make_basis(face);
-    sort_keys(face);
 }
 
 /* Eyeballs are bodies: FAPs 27 and 28 move them as such. */
@@ -141,23 +100,38 @@ static fap_err open_keys(fap_face *face)
 
     face->key = fap_mem_calloc(&face->alloc, n, sizeof *face->key);
     face->motion = fap_mem_calloc(&face->alloc, n * FAP_ROWS, sizeof *face->motion);
-    face->basis = fap_mem_calloc(&face->alloc, (n + 1) * FAP_ROWS, sizeof *face->basis);
-    face->free_key = fap_mem_calloc(&face->alloc, n, sizeof *face->free_key);
     face->population = fap_mem_calloc(&face->alloc, n, sizeof *face->population);
     face->fixed = fap_mem_calloc(&face->alloc, n, sizeof *face->fixed);
-    face->weight = fap_mem_calloc(&face->alloc, n, sizeof *face->weight);
-    face->variable = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->variable);
-    face->beside = fap_mem_calloc(&face->alloc, 2 * n, sizeof *face->beside);
-    face->mover = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->mover);
-    face->reach = fap_mem_calloc(&face->alloc, n + 1, sizeof *face->reach);
-    if (!face->key || !face->motion || !face->basis || !face->free_key || !face->beside || !face->mover ||
-        !face->reach || !face->population || !face->fixed || !face->weight || !face->variable)
+    face->weight = fap_mem_calloc(&face->alloc, n * FAP_REGION_MAX, sizeof *face->weight);
+    face->shown = fap_mem_calloc(&face->alloc, n, sizeof *face->shown);
+    if (!face->key || !face->motion || !face->population || !face->fixed || !face->weight || !face->shown)
         return FAP_E_NOMEM;
     read_keys(face);
-    if (fap_qp_open(&face->qp, face->key_count + 1, &face->alloc) ||
-        fap_ga_open(&face->ga, face->key_count + 1, FAP_ROWS, face->key_count, &face->alloc))
+    return FAP_OK;
+}
+
+/* The thesis's ramps between regions are straight; ours are round. */
+static fap_err open_method(fap_face *face)
+{
+    const fap_blend_method *m = fap_blend_methods[face->cfg.blend];
+    const int regions = m->regions ? face->cfg.regions : 1;
+
+    face->method = m;
+    face->state = m->state_size ? fap_mem_calloc(&face->alloc, 1, m->state_size) : NULL;
+    if ((m->state_size && !face->state) ||
+        fap_regions_open(&face->regions, face->bank, regions, face->cfg.overlap_percent / 100,
+                         m != &fap_blend_zhu, &face->alloc) ||
+        (m->open && m->open(face->state, face)))
         return FAP_E_NOMEM;
     return FAP_OK;
+}
+
+static void close_method(fap_face *face)
+{
+    if (face->state && face->method->close)
+        face->method->close(face->state, face);
+    fap_mem_free(&face->alloc, face->state);
+    fap_regions_close(&face->regions, &face->alloc);
 }
 
 static fap_err open_surface(fap_face *face)
@@ -187,8 +161,10 @@ static fap_err open_face(fap_face *face)
     sort_points(face);
     fap_face_find_slits(face);
     face->chin_row = 3 * fap_point_by_name("2.1") + 1;
-    const fap_err err = open_keys(face);
-    return err ? err : open_surface(face);
+    fap_err err = open_keys(face);
+    if (!err)
+        err = open_surface(face);
+    return err ? err : open_method(face);
 }
 
 fap_err fap_face_open(fap_face **face, const fap_bank *bank, const fap_face_config *cfg)
@@ -220,13 +196,11 @@ void fap_face_close(fap_face **face)
     if (!f)
         return;
     const fap_allocator alloc = f->alloc;
+    close_method(f);
     fap_face_close_parts(f);
     fap_normals_close(&f->normals, &alloc);
     fap_residual_close(&f->residual, &alloc);
-    fap_qp_close(&f->qp, &alloc);
-    fap_ga_close(&f->ga, &alloc);
-    void *const blocks[] = { f->key,    f->motion, f->basis, f->free_key, f->population, f->fixed,
-                             f->weight, f->beside, f->mover, f->reach,    f->variable,   f };
+    void *const blocks[] = { f->key, f->motion, f->population, f->fixed, f->weight, f->shown, f };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         fap_mem_free(&alloc, blocks[i]);
     *face = NULL;
@@ -239,7 +213,34 @@ size_t fap_face_stride(const fap_face *face)
 
 /* --- pose --- */
 
-/* Eq. 3.1. Weights of no effect are skipped, so a frame costs what it moves. */
+static float weight_in(const fap_face *face, const float *weight, int region, int k)
+{
+    return weight[(size_t)region * (size_t)face->key_count + (size_t)k];
+}
+
+static int same_in_all_regions(const fap_face *face, const float *weight, int k)
+{
+    for (int r = 1; r < face->regions.count; r++)
+        if (weight_in(face, weight, r, k) != weight[k])
+            return 0;
+    return 1;
+}
+
+static void add_key_by_region(const fap_face *face, const float *weight, int k, float *position)
+{
+    const fap_key *key = face->key[k];
+    float w[FAP_REGION_MAX] = { 0 };
+
+    for (int r = 0; r < face->regions.count; r++)
+        w[r] = weight_in(face, weight, r, k) * key->scale_mm;
+    face->dsp.add_key_regions(position, face->mesh->stride, key->block, key->delta, key->block_count,
+                              face->regions.map, w);
+}
+
+/*
+ * Eq. 3.1, in each region with its own weights (eq. 3.7). Weights of no effect are skipped, so a frame costs
+ * what it moves.
+ */
 static void blend(const fap_face *face, const float *weight, float *position)
 {
     const size_t stride = face->mesh->stride;
@@ -247,9 +248,22 @@ static void blend(const fap_face *face, const float *weight, float *position)
     memcpy(position, face->mesh->position, 3 * stride * sizeof *position);
     for (int k = 0; k < face->key_count; k++) {
         const fap_key *key = face->key[k];
-        if (weight[k] != 0)
+        if (!same_in_all_regions(face, weight, k))
+            add_key_by_region(face, weight, k, position);
+        else if (weight[k] != 0)
             face->dsp.add_key(position, stride, key->block, key->delta, key->block_count,
                               weight[k] * key->scale_mm);
+    }
+}
+
+/* For callers: one weight a key. */
+static void show_weights(fap_face *face)
+{
+    for (int k = 0; k < face->key_count; k++) {
+        float sum = 0;
+        for (int r = 0; r < face->regions.count; r++)
+            sum += weight_in(face, face->weight, r, k);
+        face->shown[k] = face->regions.count > 1 ? sum / (float)face->regions.count : sum;
     }
 }
 
@@ -280,13 +294,30 @@ static float error_mm(const fap_face *face)
     return face->row_count ? (float)sqrt(sum / face->row_count) : 0;
 }
 
+/* The same as the method's own fitness, for a shape that is not made of weights alone. */
+static float measured_fitness(const fap_face *face)
+{
+    float target[FAP_ROWS] = { 0 }, got[FAP_ROWS] = { 0 };
+
+    for (int r = 0; r < face->row_count; r++) {
+        const int row = face->row[r], p = row / 3, axis = row % 3;
+        target[row] = fap_blend_row_target(face, row);
+        got[row] = face->point[p][axis] - face->neutral[p][axis] - face->fixed_motion[row];
+    }
+    return fap_ga_cosine(target, got, FAP_ROWS);
+}
+
 static void move_in_head(fap_face *face, const fap_frame *frame, float *position)
 {
     blend(face, face->weight, position);
+    if (face->method->shape && face->row_count)
+        face->method->shape(face->state, face, position);
     fap_face_turn_eyes(face, frame, position);
     fap_face_clamp_teeth(face, position);
     fap_face_measure(face, position, face->point);
     face->stats.target_error_mm = error_mm(face);
+    if (face->method->shape)
+        face->stats.fitness = measured_fitness(face);
     if (face->cfg.residual)
         fap_face_correct(face, position);
     fap_face_curl_tongue(face, frame, position);
@@ -298,6 +329,7 @@ static void move_in_head(fap_face *face, const fap_frame *frame, float *position
 
 static void finish(fap_face *face, const float *position, float *normal)
 {
+    show_weights(face);
     if (normal)
         fap_normals_compute(&face->normals, &face->dsp, face->mesh, position, normal);
 }
@@ -313,13 +345,27 @@ void fap_face_pose(fap_face *face, const fap_frame *frame, float *position, floa
     finish(face, position, normal);
 }
 
+void fap_face_pose_points(fap_face *face, const float target_mm[FAP_POINT_COUNT][3],
+                          const uint8_t wanted[FAP_POINT_COUNT][3], float *position, float *normal)
+{
+    const fap_frame still = { 0 };
+
+    assert(((uintptr_t)position & 31) == 0 && ((uintptr_t)normal & 31) == 0);
+    fap_face_lay_base(face, &still);
+    fap_face_take_targets(face, target_mm, wanted);
+    fap_face_solve(face);
+    move_in_head(face, &still, position);
+    finish(face, position, normal);
+}
+
 void fap_face_pose_keys(fap_face *face, const float *weight, float *position, float *normal)
 {
     assert(((uintptr_t)position & 31) == 0 && ((uintptr_t)normal & 31) == 0);
     memcpy(face->weight, weight, sizeof *weight * (size_t)face->key_count);
+    fap_blend_copy_to_regions(face, face->weight);
     face->stats = (fap_face_stats){ .fitness = 1 };
     face->row_count = 0;
-    blend(face, weight, position);
+    blend(face, face->weight, position);
     fap_face_measure(face, position, face->point);
     finish(face, position, normal);
 }
@@ -331,7 +377,7 @@ void fap_face_points(const fap_face *face, float points[FAP_POINT_COUNT][3])
 
 const float *fap_face_weights(const fap_face *face)
 {
-    return face->weight;
+    return face->shown;
 }
 
 void fap_face_last_stats(const fap_face *face, fap_face_stats *out)

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * The inside of a face, shared by its files: face.c (life and order of work), face_base.c (visemes,
- * expressions, gaze, blink), face_solve.c (weights), face_rigid.c (eyes, lids, teeth, tongue, head),
- * face_residual.c (exact points).
+ * expressions, gaze, blink), face_targets.c (what is asked), blend*.c (how it is reached), face_rigid.c (eyes,
+ * lids, teeth, tongue, head), face_residual.c (exact points).
  */
 #ifndef LIB_BANK_FACE_H
 #define LIB_BANK_FACE_H
 
 #include <fap/face.h>
 
+#include "bank/blend.h"
 #include "bank/face_normals.h"
-#include "bank/ga.h"
-#include "bank/qp.h"
+#include "bank/least_squares.h"
+#include "bank/region.h"
 #include "bank/residual.h"
 #include "dsp/dsp.h"
 
-enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_LIP_SLITS = 3, FAP_SLITS = 5, FAP_RIVALS = 6 };
+enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_LIP_SLITS = 3, FAP_SLITS = 5 };
 
 /* Keys with a part of their own, by bank index; -1 where the bank has none. */
 typedef struct fap_face_keys {
@@ -23,12 +24,6 @@ typedef struct fap_face_keys {
     int blink[2], blink_both; /* left, right; the extra key of both */
     int look_up[2], look_down[2], look_in[2], look_out[2];
 } fap_face_keys;
-
-/* Two units that undo one another. */
-typedef struct fap_face_rivals {
-    int key[2];
-    float stiffness_mm2;
-} fap_face_rivals;
 
 typedef struct fap_face_list {
     uint32_t *vertex, count;
@@ -52,15 +47,11 @@ struct fap_face {
     /* made at open */
     int key_count;
     const fap_key **key;
-    float *motion;       /* [FAP_ROWS][key_count]: millimetres per unit of weight */
-    float *basis;        /* [FAP_ROWS][key_count + 1]: columns of least squares, see face_solve.c */
-    uint8_t *free_key;   /* [key_count]: a variable of the least-squares problem */
-    uint8_t *population; /* [key_count]: one of the thesis's population */
+    float *motion;                     /* [FAP_ROWS][key_count]: millimetres per unit of weight */
+    uint8_t *population;               /* [key_count]: one of the thesis's population */
     uint8_t solvable[FAP_POINT_COUNT]; /* moved by blending and residual; eyeballs are not */
     float neutral[FAP_POINT_COUNT][3];
     fap_face_keys known;
-    fap_face_rivals rivals[FAP_RIVALS];
-    int rival_count;
     fap_face_eye eye[2]; /* left, right */
     fap_face_list lower_teeth, tongue, lash;
     uint32_t *follows; /* [vertex_count]: nearest skin vertex of a lash, itself for the rest */
@@ -70,8 +61,9 @@ struct fap_face {
     float spine[3];
     fap_normals normals;
     fap_residual residual;
-    fap_qp qp;
-    fap_ga ga;
+    fap_regions regions;
+    const fap_blend_method *method;
+    void *state; /* the method's */
 
     /* this frame */
     float asked[FAP_POINT_COUNT][3];    /* from neutral, millimetres */
@@ -83,11 +75,8 @@ struct fap_face {
     float base_weight[FAP_BASE_MAX]; /* viseme and expression: yield to low-level FAPs */
     float *fixed;                    /* [key_count]: gaze and blink: do not yield */
     float fixed_motion[FAP_ROWS];
-    float *weight; /* [key_count]: the answer */
-    float *beside; /* [2 * key_count]: see face_solve.c */
-    int *mover;    /* [key_count + 1]: work of one row, with reach */
-    double *reach;
-    int *variable;                   /* [key_count + 1]: column of each variable */
+    float *weight;                   /* [FAP_REGION_MAX][key_count]: the answer */
+    float *shown;                    /* [key_count]: the mean of the regions' weights, for callers */
     float *lift;                     /* [stride]: how far each lid vertex was pushed out */
     float point[FAP_POINT_COUNT][3]; /* in head coordinates while posing, the room's afterwards */
     fap_face_stats stats;
@@ -95,14 +84,10 @@ struct fap_face {
 
 /* Visemes, expressions, lids that follow the gaze, blinks: base_* and fixed of this frame. */
 void fap_face_lay_base(fap_face *face, const fap_frame *frame);
-/* Targets and commanded rows of this frame. */
+/* Targets and commanded rows of this frame, or of points given outright. */
 void fap_face_read_targets(fap_face *face, const fap_frame *frame);
-/* basis from motion. */
-void fap_face_make_basis(fap_face *face);
-/* weight from rows, base and fixed. */
-void fap_face_solve(fap_face *face);
-/* What @p weight does to a row. */
-float fap_face_row_motion(const fap_face *face, int row, const float *weight);
+void fap_face_take_targets(fap_face *face, const float target_mm[FAP_POINT_COUNT][3],
+                           const uint8_t wanted[FAP_POINT_COUNT][3]);
 
 /* Feature points of @p position: means of their vertices. */
 void fap_face_measure(const fap_face *face, const float *position, float point[FAP_POINT_COUNT][3]);

@@ -152,6 +152,8 @@ TEST(face, every_fap_moves_its_point_exactly)
     check_each_fap(BUILTIN, FAP_BLEND_GA);
     check_each_fap(BUILTIN, FAP_BLEND_QP);
     check_each_fap(BUILTIN, FAP_BLEND_ZHU);
+    check_each_fap(BUILTIN, FAP_BLEND_PCA);
+    check_each_fap(BUILTIN, FAP_BLEND_RBF);
 }
 
 TEST(face, every_fap_moves_its_point_exactly_on_the_default_face)
@@ -257,6 +259,8 @@ TEST(face, absurd_values_do_not_break_it)
     check_absurd(FAP_BLEND_GA);
     check_absurd(FAP_BLEND_QP);
     check_absurd(FAP_BLEND_ZHU);
+    check_absurd(FAP_BLEND_PCA);
+    check_absurd(FAP_BLEND_RBF);
 }
 
 static void check_lips(rig *r, const char *upper, const char *lower)

@@ -20,6 +20,20 @@ static void add_key_c(float *xyz, size_t stride, const uint16_t *block, const in
     }
 }
 
+static void add_key_regions_c(float *xyz, size_t stride, const uint16_t *block, const int16_t *delta,
+                              size_t block_count, const float *map, const float w[4])
+{
+    for (size_t b = 0; b < block_count; b++, delta += 24) {
+        const float *m = map + 32u * block[b];
+        float *dst = xyz + 8u * block[b], own[8];
+        for (int i = 0; i < 8; i++)
+            own[i] = ((w[0] * m[i] + w[1] * m[8 + i]) + w[2] * m[16 + i]) + w[3] * m[24 + i];
+        for (int axis = 0; axis < 3; axis++, dst += stride)
+            for (int i = 0; i < 8; i++)
+                dst[i] += own[i] * (float)delta[8 * axis + i];
+    }
+}
+
 static void add_field_c(float *xyz, size_t stride, const uint16_t *block, const float *field,
                         size_t block_count, const float c[3])
 {
@@ -103,7 +117,8 @@ unsigned fap_cpu_detect(void)
 
 void fap_dsp_init(fap_dsp *dsp, unsigned cpu)
 {
-    *dsp = (fap_dsp){ add_key_c, add_field_c, rotate_c, triangle_normals_c, sum_normals_c, normalise_c };
+    *dsp = (fap_dsp){ add_key_c,          add_key_regions_c, add_field_c, rotate_c,
+                      triangle_normals_c, sum_normals_c,     normalise_c };
 #if defined(__x86_64__) && defined(__GNUC__)
     fap_dsp_init_x86(dsp, cpu);
 #elif defined(__aarch64__) && defined(__GNUC__)

@@ -16,6 +16,9 @@ typedef struct fap_dsp {
     /* xyz[axis][8 * block[b] + i] += w * delta[b][axis][i] */
     void (*add_key)(float *xyz, size_t stride, const uint16_t *block, const int16_t *delta,
                     size_t block_count, float w);
+    /* The same with a weight of its own for each vertex: sum over r < 4 of w[r] * map[block[b]][r][i] */
+    void (*add_key_regions)(float *xyz, size_t stride, const uint16_t *block, const int16_t *delta,
+                            size_t block_count, const float *map, const float w[4]);
     /* xyz[axis][8 * block[b] + i] += c[axis] * field[b][i] */
     void (*add_field)(float *xyz, size_t stride, const uint16_t *block, const float *field,
                       size_t block_count, const float c[3]);

@@ -56,6 +56,40 @@ TEST(dsp, key_kernels_agree_to_the_bit)
     assert_memory_equal(a.xyz, b.xyz, sizeof a.xyz);
 }
 
+TEST(dsp, regional_key_kernels_agree_to_the_bit)
+{
+    fap_dsp plain, best;
+    bed a, b;
+    float map[4 * N];
+    const float w[4] = { 0.3f, -0.01f, 0, 1.7f };
+    uint32_t seed = 9;
+
+    kernels(&plain, &best);
+    fill(&a, 1), fill(&b, 1);
+    for (int i = 0; i < 4 * N; i++)
+        map[i] = (float)(next(&seed) % 1001) / 1000;
+    plain.add_key_regions(a.xyz, N, a.block, a.delta, BLOCKS, map, w);
+    best.add_key_regions(b.xyz, N, b.block, b.delta, BLOCKS, map, w);
+    assert_memory_equal(a.xyz, b.xyz, sizeof a.xyz);
+}
+
+TEST(dsp, shares_of_one_make_a_regional_key_a_plain_one)
+{
+    fap_dsp plain;
+    bed a, b;
+    float map[4 * N];
+    const float w[4] = { 0.37f, 0.37f, 0.37f, 0.37f };
+
+    fap_dsp_init(&plain, 0);
+    fill(&a, 1), fill(&b, 1);
+    for (int i = 0; i < 4 * N; i++)
+        map[i] = 0.25f;
+    plain.add_key(a.xyz, N, a.block, a.delta, BLOCKS, 0.37f);
+    plain.add_key_regions(b.xyz, N, b.block, b.delta, BLOCKS, map, w);
+    for (int i = 0; i < 3 * N; i++)
+        assert_float_equal(a.xyz[i], b.xyz[i], 1e-2);
+}
+
 TEST(dsp, a_key_moves_its_blocks_and_nothing_else)
 {
     fap_dsp best;

@@ -33,6 +33,27 @@ AVX2 static void add_key_avx2(float *xyz, size_t stride, const uint16_t *block, 
     }
 }
 
+AVX2 static inline __m256 own_weight(const float *m, const float w[4])
+{
+    const __m256 a = _mm256_mul_ps(_mm256_set1_ps(w[0]), _mm256_loadu_ps(m));
+    const __m256 b = _mm256_mul_ps(_mm256_set1_ps(w[1]), _mm256_loadu_ps(m + 8));
+    const __m256 c = _mm256_mul_ps(_mm256_set1_ps(w[2]), _mm256_loadu_ps(m + 16));
+    const __m256 d = _mm256_mul_ps(_mm256_set1_ps(w[3]), _mm256_loadu_ps(m + 24));
+    return _mm256_add_ps(_mm256_add_ps(_mm256_add_ps(a, b), c), d);
+}
+
+AVX2 static void add_key_regions_avx2(float *xyz, size_t stride, const uint16_t *block, const int16_t *delta,
+                                      size_t block_count, const float *map, const float w[4])
+{
+    for (size_t b = 0; b < block_count; b++, delta += 24) {
+        float *dst = xyz + 8u * block[b];
+        const __m256 own = own_weight(map + 32u * block[b], w);
+        add_scaled(dst, load_delta(delta), own);
+        add_scaled(dst + stride, load_delta(delta + 8), own);
+        add_scaled(dst + 2 * stride, load_delta(delta + 16), own);
+    }
+}
+
 AVX2 static void add_field_avx2(float *xyz, size_t stride, const uint16_t *block, const float *field,
                                 size_t block_count, const float c[3])
 {
@@ -103,6 +124,7 @@ void fap_dsp_init_x86(fap_dsp *dsp, unsigned cpu)
     if (!(cpu & FAP_CPU_AVX2))
         return;
     dsp->add_key = add_key_avx2;
+    dsp->add_key_regions = add_key_regions_avx2;
     dsp->add_field = add_field_avx2;
     dsp->rotate = rotate_avx2;
     dsp->sum_normals = sum_normals_avx2;

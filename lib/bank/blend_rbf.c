@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * No example faces at all: what the feature points do is spread over the skin by Hardy's multiquadrics, each
+ * axis with the points that are commanded along it and with anchors where the face never moves. Visemes and
+ * expressions are still key models; the field bends what they show. Source: Zhu 2006 section 4.3, eq. 4.1 to
+ * 4.4, used for motion instead of shape; Lin et al. 2001 section 5.2.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "bank/face.h"
+#include "base/mem.h"
+
+enum { ANCHORS = 24, CENTRES_MAX = FAP_POINT_COUNT + ANCHORS };
+static const double least_pivot = 1e-6; /* of the largest entry; below it two centres are one */
+static const float farthest_mm = 200;   /* targets that contradict each other do not fling the skin further */
+
+typedef struct state {
+    int count, point_count; /* centres: feature points first, then anchors */
+    int point[FAP_POINT_COUNT];
+    float centre[CENTRES_MAX][3], stiffness[CENTRES_MAX];
+    uint32_t anchor[ANCHORS];
+    float *kernel;                            /* [count][stride]: eq. 4.2 at every vertex */
+    float pull[FAP_POINT_COUNT][CENTRES_MAX]; /* the same at the feature points */
+    float anchor_pull[ANCHORS][CENTRES_MAX];
+    uint16_t *block;                             /* [stride / FAP_BLOCK]: all of them */
+    float strength[3][CENTRES_MAX];              /* W of eq. 4.1, this frame's */
+    double matrix[CENTRES_MAX][CENTRES_MAX + 1]; /* work */
+} state;
+
+/* --- made at open --- */
+
+static void place(const fap_face *face, uint32_t v, float out[3])
+{
+    for (size_t axis = 0; axis < 3; axis++)
+        out[axis] = face->mesh->position[axis * face->mesh->stride + v];
+}
+
+static float distance(const float a[3], const float b[3])
+{
+    const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return sqrtf(x * x + y * y + z * z);
+}
+
+static int on_skin(const fap_face *face, int p)
+{
+    const fap_bank_point *b = fap_bank_point_get(face->bank, p);
+    return face->solvable[p] && face->mesh->part[b->vertex[0]] == FAP_PART_SKIN;
+}
+
+static void list_centres(state *s, const fap_face *face)
+{
+    for (int p = 0; p < FAP_POINT_COUNT; p++)
+        if (on_skin(face, p)) {
+            memcpy(s->centre[s->count], face->neutral[p], sizeof s->centre[0]);
+            s->point[s->count++] = p;
+        }
+    s->point_count = s->count;
+}
+
+static void mark_moving(const fap_face *face, uint8_t *moving)
+{
+    for (int k = 0; k < face->key_count; k++)
+        for (uint32_t b = 0; b < face->key[k]->block_count; b++)
+            for (int i = 0; i < 3 * FAP_BLOCK; i++)
+                if (face->key[k]->delta[(size_t)b * 3 * FAP_BLOCK + (size_t)i])
+                    moving[(uint32_t)face->key[k]->block[b] * FAP_BLOCK + (uint32_t)i % FAP_BLOCK] = 1;
+}
+
+/* Skin that no key moves, each anchor as far as can be from the centres there are. */
+static void add_anchors(state *s, const fap_face *face, const uint8_t *moving, float *nearest)
+{
+    const fap_mesh *mesh = face->mesh;
+    float at[3];
+
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        nearest[v] = INFINITY;
+    for (int c = 0, found = 1; found && s->count < s->point_count + ANCHORS; c = s->count - 1) {
+        uint32_t best = 0;
+        found = 0;
+        for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+            place(face, v, at);
+            for (int i = c ? c : 0; i < s->count; i++)
+                nearest[v] = fminf(nearest[v], distance(at, s->centre[i]));
+            if (moving[v] || mesh->part[v] != FAP_PART_SKIN || nearest[v] < 1 || isinf(nearest[v]))
+                continue;
+            best = !found || nearest[v] > nearest[best] ? v : best;
+            found = 1;
+        }
+        if (found) {
+            s->anchor[s->count - s->point_count] = best;
+            place(face, best, s->centre[s->count++]);
+        }
+    }
+}
+
+static int find_anchors(state *s, const fap_face *face)
+{
+    uint8_t *moving = fap_mem_calloc(&face->alloc, face->mesh->stride, 1);
+    float *nearest = fap_mem_calloc(&face->alloc, face->mesh->stride, sizeof *nearest);
+    const int failed = !moving || !nearest;
+
+    if (!failed) {
+        mark_moving(face, moving);
+        add_anchors(s, face, moving, nearest);
+    }
+    fap_mem_free(&face->alloc, moving);
+    fap_mem_free(&face->alloc, nearest);
+    return failed;
+}
+
+/* Eq. 4.3: each centre is as soft as its nearest neighbour is far. */
+static void find_stiffness(state *s)
+{
+    for (int i = 0; i < s->count; i++) {
+        float least = INFINITY;
+        for (int j = 0; j < s->count; j++)
+            if (j != i)
+                least = fminf(least, distance(s->centre[i], s->centre[j]));
+        s->stiffness[i] = isinf(least) ? 1 : fmaxf(least, 0.1f);
+    }
+}
+
+/* Eq. 4.2 */
+static float hardy(const state *s, int c, const float at[3])
+{
+    const float d = distance(at, s->centre[c]);
+    return sqrtf(d * d + s->stiffness[c] * s->stiffness[c]);
+}
+
+/* Lower teeth and tongue go where the chin goes; eyes and upper teeth stay. */
+static float kernel_at(const state *s, const fap_face *face, int c, uint32_t v)
+{
+    float at[3];
+
+    switch (face->mesh->part[v]) {
+    case FAP_PART_TEETH_LOWER:
+    case FAP_PART_TONGUE: return hardy(s, c, face->neutral[face->chin_row / 3]);
+    case FAP_PART_SKIN:
+    case FAP_PART_LASHES: place(face, face->follows[v], at); return hardy(s, c, at);
+    default: return 0;
+    }
+}
+
+static void fill_kernel(state *s, const fap_face *face, int c)
+{
+    float *kernel = s->kernel + (size_t)c * face->mesh->stride;
+
+    for (uint32_t v = 0; v < face->mesh->vertex_count; v++)
+        kernel[v] = kernel_at(s, face, c, v);
+    for (int i = 0; i < s->point_count; i++) {
+        const fap_bank_point *b = fap_bank_point_get(face->bank, s->point[i]);
+        for (uint32_t k = 0; k < b->vertex_count; k++)
+            s->pull[i][c] += kernel[b->vertex[k]] / (float)b->vertex_count;
+    }
+    for (int i = 0; i < s->count - s->point_count; i++)
+        s->anchor_pull[i][c] = kernel[s->anchor[i]];
+}
+
+static int open_rbf(void *user, const fap_face *face)
+{
+    state *s = user;
+    const uint32_t stride = face->mesh->stride;
+
+    list_centres(s, face);
+    if (find_anchors(s, face))
+        return 1;
+    s->kernel = fap_mem_calloc(&face->alloc, (size_t)(s->count + 1) * stride, sizeof *s->kernel);
+    s->block = fap_mem_calloc(&face->alloc, stride / FAP_BLOCK, sizeof *s->block);
+    if (!s->kernel || !s->block)
+        return 1;
+    find_stiffness(s);
+    for (uint32_t b = 0; b < stride / FAP_BLOCK; b++)
+        s->block[b] = (uint16_t)b;
+    for (int c = 0; c < s->count; c++)
+        fill_kernel(s, face, c);
+    return 0;
+}
+
+static void close_rbf(void *user, const fap_face *face)
+{
+    state *s = user;
+
+    fap_mem_free(&face->alloc, s->kernel);
+    fap_mem_free(&face->alloc, s->block);
+}
+
+/* --- this frame --- */
+
+/* Eq. 4.4 along one axis: commanded points where they should go, anchors where they are. */
+static int set_equations(state *s, const fap_face *face, int axis, int *list)
+{
+    int n = 0;
+
+    for (int c = 0; c < s->count; c++)
+        if (c >= s->point_count || face->wanted[s->point[c]][axis])
+            list[n++] = c;
+    for (int i = 0; i < n; i++) {
+        const int is_anchor = list[i] >= s->point_count, row = is_anchor ? 0 : 3 * s->point[list[i]] + axis;
+        const float *pull = is_anchor ? s->anchor_pull[list[i] - s->point_count] : s->pull[list[i]];
+        for (int j = 0; j < n; j++)
+            s->matrix[i][j] = pull[list[j]];
+        s->matrix[i][n] =
+            is_anchor ? 0 : fap_blend_row_target(face, row) - fap_face_row_motion(face, row, face->weight);
+    }
+    return n;
+}
+
+static void swap_rows(double *a, double *b, int n)
+{
+    for (int i = 0; i <= n; i++) {
+        const double t = a[i];
+        a[i] = b[i];
+        b[i] = t;
+    }
+}
+
+/* Gauss with partial pivoting; a centre without a pivot has no say. */
+static void eliminate(state *s, int n)
+{
+    for (int c = 0; c < n; c++) {
+        int best = c;
+        for (int i = c + 1; i < n; i++)
+            if (fabs(s->matrix[i][c]) > fabs(s->matrix[best][c]))
+                best = i;
+        swap_rows(s->matrix[c], s->matrix[best], n);
+        if (fabs(s->matrix[c][c]) < least_pivot)
+            continue;
+        for (int i = c + 1; i < n; i++) {
+            const double f = s->matrix[i][c] / s->matrix[c][c];
+            for (int k = c; k <= n && f != 0; k++)
+                s->matrix[i][k] -= f * s->matrix[c][k];
+        }
+    }
+}
+
+static void back_substitute(state *s, int n, const int *list, float *strength)
+{
+    double x[CENTRES_MAX];
+
+    for (int i = n - 1; i >= 0; i--) {
+        double sum = s->matrix[i][n];
+        for (int k = i + 1; k < n; k++)
+            sum -= s->matrix[i][k] * x[k];
+        x[i] = fabs(s->matrix[i][i]) < least_pivot ? 0 : sum / s->matrix[i][i];
+        strength[list[i]] = (float)x[i];
+    }
+}
+
+static void solve_rbf(void *user, fap_face *face)
+{
+    state *s = user;
+    int list[CENTRES_MAX];
+
+    for (int i = 0; i < face->base_count; i++)
+        face->weight[face->base_key[i]] = face->base_weight[i];
+    memset(s->strength, 0, sizeof s->strength);
+    for (int axis = 0; axis < 3; axis++) {
+        const int n = set_equations(s, face, axis, list);
+        eliminate(s, n);
+        back_substitute(s, n, list, s->strength[axis]);
+    }
+}
+
+static void stay_near(const fap_face *face, float *position)
+{
+    const float *rest = face->mesh->position;
+
+    for (size_t i = 0; i < 3 * (size_t)face->mesh->stride; i++)
+        position[i] = fminf(rest[i] + farthest_mm, fmaxf(rest[i] - farthest_mm, position[i]));
+}
+
+static void shape_rbf(void *user, fap_face *face, float *position)
+{
+    const state *s = user;
+    const uint32_t stride = face->mesh->stride;
+
+    for (int c = 0; c < s->count; c++) {
+        const float w[3] = { s->strength[0][c], s->strength[1][c], s->strength[2][c] };
+        if (w[0] != 0 || w[1] != 0 || w[2] != 0)
+            face->dsp.add_field(position, stride, s->block, s->kernel + (size_t)c * stride,
+                                stride / FAP_BLOCK, w);
+    }
+    stay_near(face, position);
+}
+
+const fap_blend_method fap_blend_rbf = {
+    .name = "rbf",
+    .summary = "feature points alone, spread by Hardy's multiquadrics",
+    .state_size = sizeof(state),
+    .open = open_rbf,
+    .close = close_rbf,
+    .solve = solve_rbf,
+    .shape = shape_rbf,
+};
