@@ -191,13 +191,15 @@ static fap_err read_body(fap_decoder *d, int intra)
 {
     const fap_err err = fap_fba_body_skip(&d->body, &d->bits, intra, &d->pool);
 
+    if (check_bits(d, "body data") != FAP_OK) /* first of all: what was read behind it means nothing */
+        return FAP_E_BITSTREAM;
     if (err == FAP_E_UNSUPPORTED)
         return fail(d, err, d->bits.at, "body data", "DCT segments are not supported");
     if (err == FAP_E_LIMIT)
         return fail(d, err, d->bits.at, "body data", "more different symbols than symbol_memory holds");
     if (err != FAP_OK)
         return fail(d, err, d->bits.at, "bap_mask_type", "no such type");
-    return check_bits(d, "body data");
+    return FAP_OK;
 }
 
 static void keep_face(fap_decoder *d, const fba_face *copy, int intra)

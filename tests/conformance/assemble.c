@@ -106,6 +106,15 @@ static int put_stuffing(assembler *a, char **word, int words)
     return 1;
 }
 
+/* zeros: what some encoders write for stuffing */
+static int put_zeros(assembler *a, char **word, int words)
+{
+    (void)word, (void)words;
+    while (a->out->bits.bits % 8)
+        bit_list_put(&a->out->bits, 1, 0);
+    return 1;
+}
+
 /* bits N HEX */
 static int put_bits(assembler *a, char **word, int words)
 {
@@ -294,6 +303,7 @@ static const struct {
 } statements[] = {
     { "start_code", put_start_code },
     { "stuffing", put_stuffing },
+    { "zeros", put_zeros },
     { "bits", put_bits },
     { "marker", put_marker },
     { "masks", put_face_masks },
