@@ -7,7 +7,7 @@
 #include <fap/decoder.h>
 #include <fap/encoder.h>
 
-enum { STREAM_MAX_NOTICES = 16 };
+enum { STREAM_MAX_NOTICES = 32 };
 
 /* A FAP over a whole stream. */
 typedef struct stream_fap {

@@ -23,11 +23,11 @@ typedef struct fap_ascii_header {
     char version[8];     /**< "2.1" */
     char name[128];      /**< sequence name, cut to fit */
     double rate_hz;      /**< 25 where the file does not say */
-    int64_t frame_count; /**< as stated; -1: not stated. The frames themselves decide */
+    int64_t frame_count; /**< as stated; -1: not stated, or senseless. The frames themselves decide */
     int present;         /**< 0: the file has no header */
 } fap_ascii_header;
 
-/** A tolerated deviation: told once per kind. @p line counts from 1. @p text is static. */
+/** A tolerated deviation: told once per kind. @p line is where it was first met, from 1. @p text is static. */
 typedef void (*fap_ascii_notice)(void *user, int64_t line, const char *text);
 
 /** Options; start from fap_ascii_reader_config_init(). */
@@ -53,7 +53,8 @@ FAP_API FAP_NODISCARD fap_err fap_ascii_reader_open(fap_ascii_reader **reader, c
 /** What open found in front of the first frame. Never NULL; lives as long as the reader. */
 FAP_API const fap_ascii_header *fap_ascii_reader_header(const fap_ascii_reader *reader);
 /**
- * @return FAP_OK and one frame; FAP_E_END; FAP_E_SYNTAX; FAP_E_IO. After an error the reader stays at it.
+ * @return FAP_OK and one frame; FAP_E_END; FAP_E_SYNTAX; FAP_E_IO. After an error the reader stays at it. A file
+ * that is cut inside a frame, with whole ones before it, ends there: a deviation, not an error.
  * FAPs whose mask digit is 0 are FAP_HELD with the value last sent, FAP_ABSENT when none was. A value written as inf
  * or nan makes its FAP FAP_ABSENT until it is sent again. @c number is as written; @c pts_us follows from it and the
  * rate (or is the written time where frame numbers are milliseconds) and never goes back. @p out is untouched on error.
@@ -74,8 +75,10 @@ FAP_API FAP_NODISCARD fap_err fap_ascii_writer_open(fap_ascii_writer **writer, c
                                                     const fap_ascii_header *header,
                                                     const fap_allocator *alloc);
 /**
- * Frames must be as many as the header said; FAPs of state FAP_CODED are written. Frame numbers count from 0; where
- * @c pts_us leaves a gap of whole frames the count does too.
+ * Frames must be as many as the header said. FAPs of state FAP_CODED, FAP_DERIVED and FAP_CONCEALED are written,
+ * and come back as FAP_CODED. FAP_HELD is a mask digit 0, which readers take as the value they have; where they
+ * have another or none (a take that begins in its middle, a loss) the value is written. FAP_ABSENT is a 0 too.
+ * Frame numbers count from 0; where @c pts_us leaves a gap of whole frames the count does too.
  * @return FAP_OK; FAP_E_ARG a viseme or expression out of its range, nothing written; FAP_E_DATA one frame too many;
  *         FAP_E_IO. The last two stay.
  */

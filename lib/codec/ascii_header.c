@@ -36,7 +36,7 @@ static int is_mask(const words *w)
 static int is_lone_number(const fap_ascii_reader *r, const words *w)
 {
     const char *start = ascii_skip_blanks(r->line);
-    int32_t ignored;
+    int64_t ignored;
     return w->count == 1 && fap_ascii_odd_number(start, w->first_end, &ignored) == ASCII_INTEGER;
 }
 
@@ -70,21 +70,21 @@ static void take_version(fap_ascii_reader *r, const char *p, const char *end)
     copy_text(r->header.version, sizeof r->header.version, p, end);
     if (strcmp(r->header.version, "2.0") && strcmp(r->header.version, "2.1") &&
         strcmp(r->header.version, "2.2"))
-        fap_ascii_note(r, ASCII_VERSION);
+        fap_ascii_note(r, ASCII_VERSION, p);
 }
 
 static void take_name(fap_ascii_reader *r, const char *p, const char *end)
 {
     p = ascii_skip_blanks(p);
     if (p >= end) {
-        fap_ascii_note(r, ASCII_NAME);
+        fap_ascii_note(r, ASCII_NAME, end);
         return;
     }
     while (ascii_is_blank(end[-1]))
         end--;
     for (const char *c = p; c < end; c++)
         if (ascii_is_blank(*c))
-            fap_ascii_note(r, ASCII_NAME);
+            fap_ascii_note(r, ASCII_NAME, c);
     copy_text(r->header.name, sizeof r->header.name, p, end);
 }
 
@@ -99,17 +99,22 @@ static void take_rate(fap_ascii_reader *r, const char *p, const char *end)
     if (rate >= 0.001 && rate <= 100000)
         r->header.rate_hz = rate;
     else
-        fap_ascii_note(r, ASCII_RATE);
+        fap_ascii_note(r, ASCII_RATE, p);
 }
 
 static void take_count(fap_ascii_reader *r, const char *p, const char *end)
 {
-    int32_t count;
+    int64_t count;
+    double number;
 
-    if (fap_ascii_odd_number(p, end, &count) != ASCII_INTEGER || count < 0)
+    if (!fap_ascii_decimal(p, end, &number))
         fap_ascii_fail(r, FAP_E_SYNTAX, p, "expected the number of frames at the end of the header");
+    else if (fap_ascii_odd_number(p, end, &count) != ASCII_INTEGER || count < 0)
+        fap_ascii_note(r, ASCII_NO_COUNT, p);
     else
         r->header.frame_count = count;
+    r->header_line = r->lines.number;
+    r->count_column = p - r->line + 1;
 }
 
 /* From the right, because names have blanks: version, name, rate, count. */
@@ -130,6 +135,7 @@ static fap_err parse_header(fap_ascii_reader *r, const words *w)
     start = last_word(r->line, &end);
     take_rate(r, start, end);
     take_name(r, w->first_end, start);
+    fap_ascii_note_tabs(r);
     return r->err;
 }
 
@@ -143,7 +149,7 @@ fap_err fap_ascii_read_header(fap_ascii_reader *r)
 
     words w = count_words(r->line);
     if (is_lone_number(r, &w)) {
-        fap_ascii_note(r, ASCII_LONE_NUMBER);
+        fap_ascii_note(r, ASCII_LONE_NUMBER, r->line);
         r->in_ms = 1;
         err = fap_ascii_next_line(r);
         if (err != FAP_OK)
@@ -152,7 +158,7 @@ fap_err fap_ascii_read_header(fap_ascii_reader *r)
     }
     if (!is_mask(&w) && !r->in_ms)
         return parse_header(r, &w);
-    fap_ascii_note(r, ASCII_NO_HEADER);
+    fap_ascii_note(r, ASCII_NO_HEADER, r->line);
     r->unread = 1;
     return r->err;
 }

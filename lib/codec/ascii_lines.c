@@ -10,7 +10,7 @@ void fap_ascii_lines_init(ascii_lines *l, const fap_reader *in)
     l->start = l->end = l->buffer;
     l->feed = NULL;
     l->number = 0;
-    l->finished = l->lone_cr = l->byte_order_mark = 0;
+    l->finished = l->lone_cr = l->unended = l->byte_order_mark = 0;
 }
 
 /* Move the rest to the front and read once: a live source should not wait for a full buffer. */
@@ -66,14 +66,17 @@ fap_err fap_ascii_lines_next(ascii_lines *l, char **line, size_t *length)
     }
     if (!l->number)
         skip_byte_order_mark(l);
-    if (stop - l->start > ASCII_LINE_MAX)
-        return l->number++, FAP_E_LIMIT;
     if (l->start == l->end)
         return FAP_E_END;
 
     *line = l->start;
     *length = (size_t)(stop - l->start);
     l->number++;
+    if (*length > ASCII_LINE_MAX) {
+        *length = ASCII_LINE_MAX;
+        return FAP_E_LIMIT;
+    }
+    l->unended = stop == l->end;
     l->start = stop < l->end ? stop + 1 : stop;
     if (stop < l->end && *stop == '\r') {
         if (l->start < l->end && *l->start == '\n')

@@ -22,6 +22,7 @@ typedef struct ascii_lines {
     int64_t number; /* of the line last given, from 1 */
     int finished;   /* the source has no more bytes */
     int lone_cr;    /* some line ended in CR alone */
+    int unended;    /* the line last given had no end: it is the last, and may be cut */
     int byte_order_mark;
     char buffer[ASCII_BUFFER + 1];
 } ascii_lines;
@@ -30,7 +31,8 @@ void fap_ascii_lines_init(ascii_lines *l, const fap_reader *in);
 
 /*
  * The next line. A '\n' is put where it ends, so that parsers need one test to stop; there may be NULs before
- * it. FAP_E_END, FAP_E_IO, FAP_E_LIMIT (longer than ASCII_LINE_MAX). The line lives until the next call.
+ * it. FAP_E_END, FAP_E_IO, FAP_E_LIMIT (longer than ASCII_LINE_MAX, which is then *length). The line lives
+ * until the next call.
  */
 fap_err fap_ascii_lines_next(ascii_lines *l, char **line, size_t *length);
 

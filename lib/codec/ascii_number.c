@@ -84,7 +84,7 @@ static int is_not_finite(const char *p, const char *end)
     return is_word(p, end, "inf") || is_word(p, end, "nan");
 }
 
-ascii_kind fap_ascii_odd_number(const char *p, const char *end, int32_t *value)
+ascii_kind fap_ascii_odd_number(const char *p, const char *end, int64_t *value)
 {
     double v;
 
@@ -93,10 +93,9 @@ ascii_kind fap_ascii_odd_number(const char *p, const char *end, int32_t *value)
         return ASCII_ABSENT;
     if (!fap_ascii_decimal(p, end, &v))
         return ASCII_BAD;
-    const double rounded = v < 0 ? v - 0.5 : v + 0.5;
-    if (!(rounded > -2147483649.0 && rounded < 2147483648.0))
+    if (!(v >= (double)-ASCII_NUMBER_MAX && v <= (double)ASCII_NUMBER_MAX))
         return ASCII_BAD;
-    *value = (int32_t)rounded;
+    *value = (int64_t)(v < 0 ? v - 0.5 : v + 0.5);
     for (; p < end; p++)
         if (*p == '.' || *p == 'e' || *p == 'E')
             return ASCII_ROUNDED;

@@ -8,8 +8,11 @@
 
 #include <stdint.h>
 
+/* Times in milliseconds since 1970 have 13 digits; doubles hold 15 exactly. */
+#define ASCII_NUMBER_MAX INT64_C(1000000000000000)
+
 typedef enum ascii_kind {
-    ASCII_BAD, /* not a number, or past 32 bits */
+    ASCII_BAD, /* not a number, or past ASCII_NUMBER_MAX */
     ASCII_INTEGER,
     ASCII_ROUNDED, /* decimals or an exponent: rounded, halves away from zero */
     ASCII_ABSENT,  /* inf or nan */
@@ -38,7 +41,7 @@ static inline const char *ascii_skip_word(const char *p)
 int fap_ascii_decimal(const char *p, const char *end, double *value);
 
 /* Any number a producer was seen to write that fills [p, end). */
-ascii_kind fap_ascii_odd_number(const char *p, const char *end, int32_t *value);
+ascii_kind fap_ascii_odd_number(const char *p, const char *end, int64_t *value);
 
 /*
  * The common number: up to nine digits, perhaps a minus sign, then a blank or the end of the line.

@@ -14,28 +14,37 @@
 enum { MS_STEP = 10 }; /* without a header, steps this large are milliseconds, not frames */
 
 static const double default_rate_hz = 25;
-static const int64_t latest_pts_us = INT64_MAX / 4; /* room for one more step of any size */
+static const int64_t latest_pts_us = INT64_MAX / 4; /* such times stay as they are: there is room to add */
 
-fap_err fap_ascii_fail(fap_ascii_reader *r, fap_err err, const char *at, const char *expected, ...)
+/* --- what is wrong, and where --- */
+
+typedef struct place {
+    int64_t line, column; /* from 1; columns are bytes */
+} place;
+
+static place place_in_line(const fap_ascii_reader *r, const char *at)
 {
-    va_list args;
-    int used;
-
-    if (r->err != FAP_OK)
-        return r->err;
-    r->err = err;
-    if (at)
-        used = snprintf(r->text, sizeof r->text, "line %lld, column %lld: ", (long long)r->lines.number,
-                        (long long)(at - r->line) + 1);
-    else
-        used = snprintf(r->text, sizeof r->text, "line %lld: ", (long long)r->lines.number);
-    va_start(args, expected);
-    vsnprintf(r->text + used, sizeof r->text - (size_t)used, expected, args);
-    va_end(args);
-    return err;
+    return (place){ r->lines.number, (int64_t)(at - r->line) + 1 };
 }
 
-void fap_ascii_note(fap_ascii_reader *r, ascii_deviation which)
+/* Behind the last byte: on a new line where the last one was ended. */
+static place place_of_end(const fap_ascii_reader *r)
+{
+    if (r->lines.unended)
+        return place_in_line(r, r->line + r->length);
+    return (place){ r->lines.number + 1, 1 };
+}
+
+static fap_err fail_at(fap_ascii_reader *r, fap_err err, place p, const char *expected)
+{
+    if (r->err != FAP_OK)
+        return r->err;
+    snprintf(r->text, sizeof r->text, "line %lld, column %lld: %s", (long long)p.line, (long long)p.column,
+             expected);
+    return r->err = err;
+}
+
+static void note_at(fap_ascii_reader *r, ascii_deviation which, place p)
 {
     static const char *const texts[] = {
 #define X(name, text) [ASCII_##name] = text,
@@ -47,17 +56,54 @@ void fap_ascii_note(fap_ascii_reader *r, ascii_deviation which)
         return;
     r->noticed |= 1u << which;
     if (r->cfg.strict)
-        fap_ascii_fail(r, FAP_E_SYNTAX, NULL, "%s", texts[which]);
+        fail_at(r, FAP_E_SYNTAX, p, texts[which]);
     else if (r->cfg.notice)
-        r->cfg.notice(r->cfg.notice_user, r->lines.number, texts[which]);
+        r->cfg.notice(r->cfg.notice_user, p.line, texts[which]);
 }
+
+void fap_ascii_note(fap_ascii_reader *r, ascii_deviation which, const char *at)
+{
+    note_at(r, which, place_in_line(r, at));
+}
+
+void fap_ascii_note_tabs(fap_ascii_reader *r)
+{
+    const char *tab = memchr(r->line, '\t', r->length);
+    if (tab)
+        fap_ascii_note(r, ASCII_TABS, tab);
+}
+
+/* What is wrong is that the file has no more bytes. Where frames came before, those are what there is to keep. */
+static int is_cut(const fap_ascii_reader *r, const char *at)
+{
+    return r->frames && !r->cfg.strict && (!at || (r->lines.unended && at == r->line + r->length));
+}
+
+fap_err fap_ascii_fail(fap_ascii_reader *r, fap_err err, const char *at, const char *expected, ...)
+{
+    const place p = at ? place_in_line(r, at) : place_of_end(r);
+    char text[FAP_ERROR_TEXT_SIZE - 64]; /* line and column stand in front */
+    va_list args;
+
+    if (r->err == FAP_OK && err == FAP_E_SYNTAX && is_cut(r, at)) {
+        note_at(r, ASCII_CUT, p);
+        return r->err = FAP_E_END;
+    }
+    va_start(args, expected);
+    vsnprintf(text, sizeof text, expected, args);
+    va_end(args);
+    return fail_at(r, err, p, text);
+}
+
+/* --- lines --- */
 
 static fap_err line_error(fap_ascii_reader *r, fap_err err)
 {
     if (err == FAP_E_LIMIT)
-        return fap_ascii_fail(r, FAP_E_SYNTAX, NULL, "expected a line of at most %d bytes", ASCII_LINE_MAX);
+        return fap_ascii_fail(r, FAP_E_SYNTAX, r->line + r->length, "expected a line of at most %d bytes",
+                              ASCII_LINE_MAX);
     if (err == FAP_E_IO)
-        return fap_ascii_fail(r, FAP_E_IO, NULL, "reading failed behind this line");
+        return fap_ascii_fail(r, FAP_E_IO, NULL, "expected more bytes, but reading failed");
     return r->err = err;
 }
 
@@ -72,12 +118,12 @@ fap_err fap_ascii_next_line(fap_ascii_reader *r)
         if (err != FAP_OK)
             return line_error(r, err);
         if (r->lines.byte_order_mark)
-            fap_ascii_note(r, ASCII_BYTE_ORDER_MARK);
+            fap_ascii_note(r, ASCII_BYTE_ORDER_MARK, r->line);
         if (r->lines.lone_cr)
-            fap_ascii_note(r, ASCII_LONE_CR);
+            fap_ascii_note(r, ASCII_LONE_CR, r->line + r->length);
         const char first = *ascii_skip_blanks(r->line);
         if (first == '\n')
-            fap_ascii_note(r, ASCII_EMPTY_LINE);
+            fap_ascii_note(r, ASCII_EMPTY_LINE, r->line);
         else if (first != '#')
             return r->err;
     }
@@ -92,36 +138,43 @@ static void recognise_ms(fap_ascii_reader *r, int64_t number)
         r->in_ms = 1;
     if (!r->in_ms)
         return;
-    fap_ascii_note(r, ASCII_MILLISECONDS);
+    fap_ascii_note(r, ASCII_MILLISECONDS, r->line);
 }
 
 static int64_t span_us(const fap_ascii_reader *r, int64_t numbers)
 {
-    return r->in_ms ? numbers * 1000 : (int64_t)((double)numbers * r->period_us + 0.5);
+    const double us = (double)numbers * r->period_us + 0.5;
+
+    if (r->in_ms)
+        return numbers * 1000; /* of at most 2 * ASCII_NUMBER_MAX */
+    return us < (double)latest_pts_us ? (int64_t)us : latest_pts_us;
+}
+
+static int64_t no_later(int64_t pts_us)
+{
+    return pts_us < latest_pts_us ? pts_us : latest_pts_us;
 }
 
 /* Numbers that repeat or go back start a new count one frame later: media time never does. */
 static void restart_count(fap_ascii_reader *r, int64_t number)
 {
-    const int64_t next = r->frame.pts_us + (int64_t)(r->period_us + 0.5);
-
     r->base_number = number;
-    r->base_pts_us = next < latest_pts_us ? next : latest_pts_us;
+    r->base_pts_us = no_later(r->frame.pts_us + (int64_t)(r->period_us + 0.5));
 }
 
 static void take_number(fap_ascii_reader *r)
 {
-    const int64_t number = r->number[0];
+    const int64_t number = r->frame_number;
 
     recognise_ms(r, number);
     if (!r->in_ms && number != (r->frames ? r->frame.number + 1 : 0))
-        fap_ascii_note(r, ASCII_NUMBERS);
+        fap_ascii_note(r, ASCII_NUMBERS, ascii_skip_blanks(r->line));
     if (!r->frames)
         r->base_number = number;
     else if (number <= r->frame.number)
         restart_count(r, number);
     r->frame.number = number;
-    r->frame.pts_us = r->base_pts_us + span_us(r, number - r->base_number);
+    r->frame.pts_us = no_later(r->base_pts_us + span_us(r, number - r->base_number));
     r->frames++;
 }
 
@@ -142,7 +195,7 @@ static fap_err read_value_line(fap_ascii_reader *r)
 static fap_err finish(fap_ascii_reader *r)
 {
     if (r->header.frame_count >= 0 && r->header.frame_count != r->frames)
-        fap_ascii_note(r, ASCII_COUNT);
+        note_at(r, ASCII_COUNT, (place){ r->header_line, r->count_column });
     if (r->err == FAP_OK)
         r->err = FAP_E_END;
     return r->err;
@@ -156,15 +209,13 @@ fap_err fap_ascii_reader_next(fap_ascii_reader *r, fap_frame *out)
         return r->err;
 
     fap_err err = fap_ascii_next_line(r);
-    if (err == FAP_E_END)
-        return finish(r);
     if (err == FAP_OK)
         err = fap_ascii_read_mask(r);
     if (err == FAP_OK)
         err = read_value_line(r);
     if (err == FAP_OK)
         *out = r->frame;
-    return err;
+    return err == FAP_E_END ? finish(r) : err;
 }
 
 /* --- life --- */

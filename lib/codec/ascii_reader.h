@@ -33,6 +33,7 @@ enum {
     X(NAME, "the sequence name is not one word")                                                             \
     X(RATE, "the frame rate makes no sense: 25 frames a second are assumed")                                 \
     X(COUNT, "the header states another number of frames than the file has")                                 \
+    X(NO_COUNT, "the number of frames in the header makes no sense: it is not used")                         \
     X(MASK_69, "the mask has 69 digits: the last one was ignored")                                           \
     X(NUMBERS, "frame numbers do not count up from 0 by 1")                                                  \
     X(MILLISECONDS, "frame numbers are times in milliseconds")                                               \
@@ -42,7 +43,8 @@ enum {
     X(SELECT_RANGE, "viseme or expression number out of its range: taken as absent")                         \
     X(AMPLITUDE, "viseme or expression strength out of its range: brought to the nearest end")               \
     X(DECIMALS, "values with decimals were rounded")                                                         \
-    X(NOT_FINITE, "values that are inf or nan: taken as absent")
+    X(NOT_FINITE, "values that are inf or nan: taken as absent")                                             \
+    X(CUT, "the file ends inside a frame, which was dropped")
 
 typedef enum ascii_deviation {
 #define X(name, text) ASCII_##name,
@@ -73,6 +75,8 @@ struct fap_ascii_reader {
     int odd; /* some number of the line is absent */
     uint8_t absent[ASCII_MAX_NUMBERS];
 
+    int64_t frame_number; /* of the value line */
+    int64_t header_line, count_column;
     int64_t frames, base_number, base_pts_us;
     double period_us;
     int in_ms;
@@ -80,11 +84,16 @@ struct fap_ascii_reader {
     ascii_lines lines;
 };
 
-/* Notes line, column and what was expected; @p at NULL: the line as a whole. The first error stays. */
+/*
+ * Notes line, column and what was expected; @p at NULL: where the file ends. The first error stays. What is
+ * wrong at the very end of a file with whole frames is its end: a deviation, and FAP_E_END.
+ */
 fap_err fap_ascii_fail(fap_ascii_reader *r, fap_err err, const char *at, const char *expected, ...)
     __attribute__((format(printf, 4, 5)));
-/* A deviation: told once, or fatal when strict. */
-void fap_ascii_note(fap_ascii_reader *r, ascii_deviation which);
+/* A deviation at a place of the line at hand: told once, or fatal when strict. */
+void fap_ascii_note(fap_ascii_reader *r, ascii_deviation which, const char *at);
+/* The place of the first tab of the line at hand is a deviation. */
+void fap_ascii_note_tabs(fap_ascii_reader *r);
 /* The next line that is neither comment nor empty. FAP_E_END is not final: the caller knows what is missing.
  */
 fap_err fap_ascii_next_line(fap_ascii_reader *r);

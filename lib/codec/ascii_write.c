@@ -24,6 +24,7 @@ struct fap_ascii_writer {
     double rate_hz;
     int64_t promised, written;
     int64_t number, first_pts_us;
+    fap_frame shown; /* what readers of the text show: all that was written, held */
     fap_err err;
 };
 
@@ -129,10 +130,54 @@ fap_err fap_ascii_writer_open(fap_ascii_writer **writer, const fap_writer *out,
     return FAP_OK;
 }
 
-static char *put_mask(char *p, const fap_frame *f)
+/* --- what of a frame is written --- */
+
+static int is_shown(const fap_ascii_writer *w, const fap_frame *f, int fap)
+{
+    if (w->shown.state[fap] == FAP_ABSENT)
+        return 0;
+    if (fap == 1)
+        return !memcmp(&w->shown.viseme, &f->viseme, sizeof f->viseme);
+    if (fap == 2)
+        return !memcmp(&w->shown.expression, &f->expression, sizeof f->expression);
+    return w->shown.value[fap] == f->value[fap];
+}
+
+/*
+ * Derived and concealed values too: text has no decoder behind it that would find them again. Readers hold what
+ * is masked out, so that a held value needs no number unless they hold another, or none.
+ */
+static void choose(const fap_ascii_writer *w, const fap_frame *f, uint8_t *written)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        written[fap] = f->state[fap] != FAP_ABSENT && (f->state[fap] != FAP_HELD || !is_shown(w, f, fap));
+}
+
+static int is_sound(const fap_frame *f, const uint8_t *written)
+{
+    return (!written[1] || fap_viseme_is_sound(&f->viseme)) &&
+           (!written[2] || fap_expression_is_sound(&f->expression));
+}
+
+static void keep_shown(fap_ascii_writer *w, const fap_frame *f, const uint8_t *written)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (written[fap]) {
+            w->shown.state[fap] = FAP_HELD;
+            w->shown.value[fap] = f->value[fap];
+        }
+    if (written[1])
+        w->shown.viseme = f->viseme;
+    if (written[2])
+        w->shown.expression = f->expression;
+}
+
+/* --- lines --- */
+
+static char *put_mask(char *p, const uint8_t *written)
 {
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        *p++ = f->state[fap] == FAP_CODED ? '1' : '0';
+        *p++ = (char)('0' + written[fap]);
         *p++ = fap < FAP_COUNT ? ' ' : '\n';
     }
     return p;
@@ -156,15 +201,15 @@ static char *put_expression(char *p, const fap_expression *e)
     return put_next(p, e->def);
 }
 
-static char *put_values(char *p, const fap_frame *f, int64_t number)
+static char *put_values(char *p, const fap_frame *f, const uint8_t *written, int64_t number)
 {
     p = put_number(p, number);
-    if (f->state[1] == FAP_CODED)
+    if (written[1])
         p = put_viseme(p, &f->viseme);
-    if (f->state[2] == FAP_CODED)
+    if (written[2])
         p = put_expression(p, &f->expression);
     for (int fap = 3; fap <= FAP_COUNT; fap++)
-        if (f->state[fap] == FAP_CODED)
+        if (written[fap])
             p = put_next(p, f->value[fap]);
     *p++ = '\n';
     return p;
@@ -183,9 +228,13 @@ static int64_t next_number(const fap_ascii_writer *w, const fap_frame *f)
 
 fap_err fap_ascii_writer_put(fap_ascii_writer *w, const fap_frame *frame)
 {
+    uint8_t written[FAP_COUNT + 1];
     char text[FRAME_MAX];
 
-    if (!w || !frame || !fap_frame_is_sound(frame))
+    if (!w || !frame)
+        return FAP_E_ARG;
+    choose(w, frame, written);
+    if (!is_sound(frame, written))
         return FAP_E_ARG;
     if (w->err == FAP_OK && w->written == w->promised)
         w->err = FAP_E_DATA;
@@ -196,7 +245,8 @@ fap_err fap_ascii_writer_put(fap_ascii_writer *w, const fap_frame *frame)
     if (!w->written)
         w->first_pts_us = frame->pts_us;
     w->written++;
-    return put_text(w, text, put_values(put_mask(text, frame), frame, w->number));
+    keep_shown(w, frame, written);
+    return put_text(w, text, put_values(put_mask(text, written), frame, written, w->number));
 }
 
 fap_err fap_ascii_writer_close(fap_ascii_writer **writer)

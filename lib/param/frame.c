@@ -4,13 +4,13 @@
 
 #include "param/frame.h"
 
-static int viseme_is_sound(const fap_viseme *v)
+int fap_viseme_is_sound(const fap_viseme *v)
 {
     return v->select1 <= FAP_VISEME_COUNT && v->select2 <= FAP_VISEME_COUNT &&
            v->blend <= FRAME_STRENGTH_MAX && v->def <= 1;
 }
 
-static int expression_is_sound(const fap_expression *e)
+int fap_expression_is_sound(const fap_expression *e)
 {
     return e->select1 <= FAP_EXPRESSION_COUNT && e->select2 <= FAP_EXPRESSION_COUNT &&
            e->intensity1 <= FRAME_STRENGTH_MAX && e->intensity2 <= FRAME_STRENGTH_MAX && e->init_face <= 1 &&
@@ -19,6 +19,6 @@ static int expression_is_sound(const fap_expression *e)
 
 int fap_frame_is_sound(const fap_frame *f)
 {
-    return (f->state[1] != FAP_CODED || viseme_is_sound(&f->viseme)) &&
-           (f->state[2] != FAP_CODED || expression_is_sound(&f->expression));
+    return (f->state[1] != FAP_CODED || fap_viseme_is_sound(&f->viseme)) &&
+           (f->state[2] != FAP_CODED || fap_expression_is_sound(&f->expression));
 }

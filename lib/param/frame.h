@@ -7,6 +7,9 @@
 
 enum { FRAME_STRENGTH_MAX = 63 }; /* viseme_blend and expression_intensity */
 
+int fap_viseme_is_sound(const fap_viseme *v);
+int fap_expression_is_sound(const fap_expression *e);
+
 /* Viseme and expression, where coded, are within their ranges. */
 int fap_frame_is_sound(const fap_frame *f);
 

@@ -1,25 +1,31 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* Any bytes through the .fap reader; what it accepts goes through the writer and must read back the same. */
+/*
+ * Any bytes through the .fap reader, in pieces of any size; what it reads is written, read again and written
+ * again: the frames must be equal, and the texts the same to the byte. Every open is tried without memory first.
+ */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <fap/ascii.h>
 
-enum { OUT_MAX = 1 << 16 };
+#include "tests/fuzz/alloc.h"
+
+enum { OUT_MAX = 1 << 18, MAX_FRAMES = 128 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 typedef struct memory {
     const uint8_t *data;
-    size_t size, at;
+    size_t size, at, step; /* step: bytes a read gives at most */
 } memory;
 
 static size_t read_memory(void *user, void *buf, size_t size)
 {
     memory *m = user;
-    const size_t n = m->size - m->at < size ? m->size - m->at : size;
+    size_t n = m->size - m->at < size ? m->size - m->at : size;
 
+    n = n < m->step ? n : m->step;
     if (n)
         memcpy(buf, m->data + m->at, n);
     m->at += n;
@@ -48,51 +54,126 @@ static void check(int true_or_bug)
         abort();
 }
 
-/* Only what was coded is written, and only that must come back. */
-static void compare(const fap_frame *a, const fap_frame *b)
+/* What a file says. */
+typedef struct take {
+    fap_ascii_header header;
+    fap_frame frame[MAX_FRAMES];
+    int count, vanishes; /* vanishes: a value became absent, which no text that we write can say */
+} take;
+
+static void listen(void *user, int64_t line, const char *text)
 {
-    for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        check((a->state[fap] == FAP_CODED) == (b->state[fap] == FAP_CODED));
-        check(a->state[fap] != FAP_CODED || a->value[fap] == b->value[fap]);
-    }
-    check(a->state[1] != FAP_CODED || !memcmp(&a->viseme, &b->viseme, sizeof a->viseme));
-    check(a->state[2] != FAP_CODED || !memcmp(&a->expression, &b->expression, sizeof a->expression));
+    take *t = user;
+
+    check(line >= 1);
+    t->vanishes |= strstr(text, "absent") != NULL;
 }
 
-static void round_trip(const fap_frame *frame)
+static fap_err open_reader(fap_ascii_reader **r, memory *m, take *t, int strict, fuzz_memory *alloc)
 {
-    static sink out;
-    const fap_ascii_header header = { .name = "fuzz", .rate_hz = 25, .frame_count = 1 };
-    fap_ascii_writer *writer;
-    fap_ascii_reader *reader;
-    fap_frame again;
+    char where[FAP_ERROR_TEXT_SIZE];
+    fap_ascii_reader_config cfg;
 
-    out.size = 0;
-    check(fap_ascii_writer_open(&writer, &(fap_writer){ write_sink, &out }, &header, NULL) == FAP_OK);
-    check(fap_ascii_writer_put(writer, frame) == FAP_OK);
-    check(fap_ascii_writer_close(&writer) == FAP_OK);
-    memory m = { out.data, out.size, 0 };
-    check(fap_ascii_reader_open(&reader, &(fap_reader){ read_memory, &m }, NULL, NULL) == FAP_OK);
-    check(fap_ascii_reader_next(reader, &again) == FAP_OK);
-    compare(frame, &again);
-    fap_ascii_reader_close(&reader);
+    fap_ascii_reader_config_init(&cfg);
+    cfg.strict = strict;
+    cfg.notice = listen;
+    cfg.notice_user = t;
+    cfg.alloc = fuzz_allocator(alloc);
+    const fap_err err = fap_ascii_reader_open(r, &(fap_reader){ read_memory, m }, &cfg, where);
+    check((err == FAP_OK) == (*r != NULL));
+    check(err != FAP_E_SYNTAX || !strncmp(where, "line ", 5));
+    return err;
+}
+
+static void read_frames(fap_ascii_reader *r, take *t)
+{
+    int64_t last_us = 0;
+    fap_frame f;
+    fap_err err;
+
+    while ((err = fap_ascii_reader_next(r, &f)) == FAP_OK) {
+        check(f.pts_us >= last_us);
+        last_us = f.pts_us;
+        if (t->count < MAX_FRAMES)
+            t->frame[t->count++] = f;
+    }
+    check(err == FAP_E_END || (err == FAP_E_SYNTAX && !strncmp(fap_ascii_reader_last_error(r), "line ", 5)));
+    check(fap_ascii_reader_next(r, &f) == err);
+}
+
+/* The first allocation of a reader is its last: without memory nothing is read. */
+static int read_take(take *t, const uint8_t *data, size_t size, size_t step, int strict)
+{
+    fuzz_memory none = { .fail_at = 1 }, all = { 0 };
+    memory m = { data, size, 0, step };
+    fap_ascii_reader *r;
+
+    t->count = t->vanishes = 0;
+    check(open_reader(&r, &m, t, strict, &none) == FAP_E_NOMEM && !m.at);
+    const fap_err err = open_reader(&r, &m, t, strict, &all);
+    if (err == FAP_OK) {
+        t->header = *fap_ascii_reader_header(r);
+        read_frames(r, t);
+    }
+    fap_ascii_reader_close(&r);
+    check(all.asked == 1);
+    fuzz_memory_check(&all);
+    return err == FAP_OK;
+}
+
+static void write_take(const take *t, sink *out)
+{
+    fuzz_memory none = { .fail_at = 1 }, all = { 0 };
+    const fap_allocator no_alloc = fuzz_allocator(&none), alloc = fuzz_allocator(&all);
+    const fap_writer writer = { write_sink, out };
+    fap_ascii_header header = t->header;
+    fap_ascii_writer *w;
+
+    header.frame_count = t->count;
+    out->size = 0;
+    check(fap_ascii_writer_open(&w, &writer, &header, &no_alloc) == FAP_E_NOMEM && !w && !out->size);
+    check(fap_ascii_writer_open(&w, &writer, &header, &alloc) == FAP_OK);
+    for (int i = 0; i < t->count; i++)
+        check(fap_ascii_writer_put(w, &t->frame[i]) == FAP_OK);
+    check(fap_ascii_writer_close(&w) == FAP_OK);
+    fuzz_memory_check(&all);
+}
+
+/* What has become absent is a digit 0 in the text, which is read as held. */
+static void compare(const fap_frame *a, const fap_frame *b, int vanishes)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++) {
+        const int vanished = vanishes && a->state[fap] == FAP_ABSENT && b->state[fap] == FAP_HELD;
+        check(vanished || (a->state[fap] == b->state[fap] && a->value[fap] == b->value[fap]));
+        check(vanished || fap != 1 || !memcmp(&a->viseme, &b->viseme, sizeof a->viseme));
+        check(vanished || fap != 2 || !memcmp(&a->expression, &b->expression, sizeof a->expression));
+    }
+}
+
+static void round_trip(const take *t)
+{
+    static sink first, second;
+    static take again;
+
+    write_take(t, &first);
+    check(read_take(&again, first.data, first.size, SIZE_MAX, 0));
+    check(again.count == t->count);
+    for (int i = 0; i < t->count; i++)
+        compare(&t->frame[i], &again.frame[i], t->vanishes);
+    write_take(&again, &second);
+    check(first.size == second.size && !memcmp(first.data, second.data, first.size));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    memory m = { data, size, 0 };
-    fap_ascii_reader *reader;
-    fap_frame frame;
-    int64_t last_us = 0;
-    char where[FAP_ERROR_TEXT_SIZE];
+    static take t, strict;
 
-    if (fap_ascii_reader_open(&reader, &(fap_reader){ read_memory, &m }, NULL, where) != FAP_OK)
+    if (!size)
         return 0;
-    while (fap_ascii_reader_next(reader, &frame) == FAP_OK) {
-        check(frame.pts_us >= last_us);
-        last_us = frame.pts_us;
-        round_trip(&frame);
-    }
-    fap_ascii_reader_close(&reader);
+    const size_t step = data[size - 1] % 8 ? SIZE_MAX : 1 + size / 3;
+    if (read_take(&t, data, size, step, 0))
+        round_trip(&t);
+    if (read_take(&strict, data, size, SIZE_MAX, 1))
+        check(strict.count <= t.count);
     return 0;
 }
