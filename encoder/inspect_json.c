@@ -6,6 +6,7 @@
 
 #include "common/json.h"
 #include "encoder/report_inspect.h"
+#include "encoder/report_written.h"
 
 static void put_facts(json *j, const options *opt, const stream_summary *s)
 {
@@ -219,6 +220,8 @@ void inspect_json(const options *opt, const run_report *rep)
     put_facts(&j, opt, s);
     if (in) {
         put_bits_facts(&j, s, in);
+        if (rep->fit)
+            json_string(&j, "fit", opt->fit_path ? opt->fit_path : rep->fit_found);
         put_kinds(&j, in);
         put_quantisers(&j, in);
         put_groups(&j, in);
@@ -229,5 +232,6 @@ void inspect_json(const options *opt, const run_report *rep)
         put_broken(&j, in);
     if (in && in->keep_planes)
         put_planes(&j, in);
+    report_written_json(&j, opt, &rep->written);
     json_close(&j, '}');
 }

@@ -278,12 +278,12 @@ static void say_broken(const stream_summary *s, const inspection *in)
 
 static void say_planes(const inspection *in)
 {
-    printf("\n%7s %8s %9s  type   quant %5s %5s %7s %7s %6s %6s %6s %5s %5s\n", "frame", "time, s", "bit",
+    printf("\n%7s %8s %9s  type   quant %5s %5s %7s %6s %6s %6s %6s %5s %5s\n", "frame", "time, s", "bit",
            "skip", "FAPs", "bits", "header", "setup", "ranges", "FAPs", "runs", "body");
     for (size_t i = 0; i < in->plane_count; i++) {
         const plane_record *r = &in->plane[i];
         const fap_plane_info *p = &r->info;
-        printf("%7" PRId64 " %8.3f %9" PRId64 "  %c %s %5d %5u %5d %7u %7u %6u %6u %6u %5u %5u\n", r->frame,
+        printf("%7" PRId64 " %8.3f %9" PRId64 "  %c %s %5d %5u %5d %7u %6u %6u %6u %6u %5u %5u\n", r->frame,
                (double)r->pts_us * 1e-6, p->bit_position, p->intra ? 'I' : 'P',
                p->start_code ? "code" : "    ", p->quant, (unsigned)p->skipped, r->coded,
                (unsigned)p->bit_count, (unsigned)p->header_bits, (unsigned)p->setup_bits,
@@ -301,6 +301,8 @@ void inspect_say(const options *opt, const run_report *rep)
     say_facts(opt, s);
     if (in) {
         say_bits_facts(s, in);
+        if (rep->fit)
+            printf("interpolates by %s\n", opt->fit_path ? opt->fit_path : rep->fit_found);
         say_kinds(in);
         say_quantisers(in);
         say_groups(in);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <fap/version.h>
 
@@ -16,7 +17,7 @@ static const char help[] =
     "Usage: fapenc TAKE -o OUT [options]       encode a capture; OUT is .fap (text) or .fba (bits)\n"
     "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; both ways without loss at "
     "--quant 0\n"
-    "       fapenc inspect FILE [--json]       what is inside an .fap or .fba\n"
+    "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
     "\n"
     "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
     "NAME_y, NAME_z\n"
@@ -35,8 +36,28 @@ static const char help[] =
     "      --smooth M        auto, none, or a cut-off frequency in Hz\n"
     "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
-    "      --quant Q         .fba: coarseness, 0 (exact) to 31; 1\n"
-    "      --intra N         .fba: at least one I plane in so many frames; 250\n"
+    "\n"
+    "Bits (.fba), whatever the input:\n"
+    "      --quant Q         keep the coarseness: 0 to 31; 1. At 0 values are sent as they are; those that a "
+    "plane\n"
+    "                        cannot carry, beyond +-1860, are clipped and counted: then take 1 and more\n"
+    "      --bitrate KBPS    keep the bits: in any 2 seconds never more than that, start codes included\n"
+    "      --max-error MM    keep the error: no feature point farther off than that\n"
+    "      --bank B.fbank    the face to measure millimetres on (the default face, else a typical one)\n"
+    "      --intra N         at least one I plane in so many frames; 250\n"
+    "      --look-ahead N    frames to choose by; 250. 0: as live, every frame a packet of its own\n"
+    "      --derive, --no-derive   leave FAPs to the decoder that it can derive (not with --quant)\n"
+    "      --skip, --no-skip       leave frames out that change nothing (not with --quant)\n"
+    "      --learn-fit FILE  find an interpolation table for the take, write it and use it; OUT.fit is found "
+    "by "
+    "itself\n"
+    "      --fit FILE        use that table, for reading an .fba too\n"
+    "      --time-codes      I planes on a full second carry their time\n"
+    "      --plane-codes     a start code in front of every plane\n"
+    "      --gender G        what the stream suggests: female (default) or male\n"
+    "      --strict          FAP streams that deviate from the standard are errors\n"
+    "\n"
+    "      --planes          inspect: a line for every plane\n"
     "      --json            the report as JSON on standard output\n"
     "      --quiet           errors only\n"
     "      --help, --version\n"
@@ -45,7 +66,10 @@ static const char help[] =
     "  fapenc jaw.c3d -o jaw.fap\n"
     "  fapenc take.csv --unit 184.8 --take-rate 25 --markers dots.csv -o take.fap\n"
     "  fapenc take.trc --neutral 120 --fapu anna.fapu --fps 30 --json -o take.fap > report.json\n"
-    "  fapenc take.fap --quant 4 --intra 50 -o take.fba\n"
+    "  fapenc take.fap --bitrate 2 -o take.fba\n"
+    "  fapenc take.c3d --max-error 0.5 --bank anna.fbank --learn-fit take.fit -o take.fba\n"
+    "  fapenc take.fap --quant 4 --intra 50 --look-ahead 0 -o take.fba\n"
+    "  fapenc take.fba -o take.fap\n"
     "  fapenc inspect take.fba\n"
     "\n"
     "Exit: 0 success, 1 bad data, 2 bad usage, 3 missing device or library. docs/markers.md says how to map "
@@ -65,7 +89,21 @@ enum {
     OPT_START,
     OPT_END,
     OPT_QUANT,
+    OPT_BITRATE,
+    OPT_MAX_ERROR,
+    OPT_BANK,
     OPT_INTRA,
+    OPT_LOOK_AHEAD,
+    OPT_DERIVE,
+    OPT_NO_DERIVE,
+    OPT_SKIP,
+    OPT_NO_SKIP,
+    OPT_FIT,
+    OPT_LEARN_FIT,
+    OPT_TIME_CODES,
+    OPT_PLANE_CODES,
+    OPT_GENDER,
+    OPT_STRICT,
     OPT_PLANES,
     OPT_JSON,
     OPT_QUIET,
@@ -88,7 +126,21 @@ static const struct option long_options[] = {
     { "start", required_argument, NULL, OPT_START },
     { "end", required_argument, NULL, OPT_END },
     { "quant", required_argument, NULL, OPT_QUANT },
+    { "bitrate", required_argument, NULL, OPT_BITRATE },
+    { "max-error", required_argument, NULL, OPT_MAX_ERROR },
+    { "bank", required_argument, NULL, OPT_BANK },
     { "intra", required_argument, NULL, OPT_INTRA },
+    { "look-ahead", required_argument, NULL, OPT_LOOK_AHEAD },
+    { "derive", no_argument, NULL, OPT_DERIVE },
+    { "no-derive", no_argument, NULL, OPT_NO_DERIVE },
+    { "skip", no_argument, NULL, OPT_SKIP },
+    { "no-skip", no_argument, NULL, OPT_NO_SKIP },
+    { "fit", required_argument, NULL, OPT_FIT },
+    { "learn-fit", required_argument, NULL, OPT_LEARN_FIT },
+    { "time-codes", no_argument, NULL, OPT_TIME_CODES },
+    { "plane-codes", no_argument, NULL, OPT_PLANE_CODES },
+    { "gender", required_argument, NULL, OPT_GENDER },
+    { "strict", no_argument, NULL, OPT_STRICT },
     { "planes", no_argument, NULL, OPT_PLANES },
     { "json", no_argument, NULL, OPT_JSON },
     { "quiet", no_argument, NULL, OPT_QUIET },
@@ -172,6 +224,38 @@ static int parse_fill(options *opt, const char *text)
     return usage(opt);
 }
 
+/* One thing can be kept constant. */
+static int set_rate(options *opt, const char *name, fap_encoder_mode mode)
+{
+    if (opt->rate_option && strcmp(opt->rate_option, name)) {
+        tool_error("%s and %s: only one of --quant, --bitrate and --max-error can be kept", opt->rate_option,
+                   name);
+        return usage(opt);
+    }
+    opt->rate_option = name;
+    opt->bits.mode = mode;
+    return 1;
+}
+
+static int parse_bitrate(options *opt, const char *text)
+{
+    double kbps;
+
+    if (!number(opt, "bitrate", text, 0.1, 100000, &kbps))
+        return 0;
+    opt->bits.bitrate_bps = (int)lround(kbps * 1000);
+    return 1;
+}
+
+static int parse_gender(options *opt, const char *text)
+{
+    opt->bits.gender = !strcmp(text, "male");
+    if (opt->bits.gender || !strcmp(text, "female"))
+        return 1;
+    tool_error("--gender %s: expected female or male", text);
+    return usage(opt);
+}
+
 static int parse_option(options *opt, int c, const char *arg)
 {
     switch (c) {
@@ -188,7 +272,25 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_FILL: return parse_fill(opt, arg);
     case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);
     case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
-    case OPT_QUANT: return whole_number(opt, "quant", arg, 0, 31, &opt->bits.quant);
+    case OPT_QUANT:
+        return set_rate(opt, "--quant", FAP_ENCODE_QUANT) &&
+               whole_number(opt, "quant", arg, 0, 31, &opt->bits.quant);
+    case OPT_BITRATE: return set_rate(opt, "--bitrate", FAP_ENCODE_BITRATE) && parse_bitrate(opt, arg);
+    case OPT_MAX_ERROR:
+        return set_rate(opt, "--max-error", FAP_ENCODE_ERROR) &&
+               number(opt, "max-error", arg, 0.001, 100, &opt->bits.max_error_mm);
+    case OPT_BANK: opt->bank_path = arg; return 1;
+    case OPT_LOOK_AHEAD: return whole_number(opt, "look-ahead", arg, 0, 10000, &opt->bits.look_ahead);
+    case OPT_DERIVE: opt->bits.derive = 1; return 1;
+    case OPT_NO_DERIVE: opt->bits.derive = 0; return 1;
+    case OPT_SKIP: opt->bits.skip = 1; return 1;
+    case OPT_NO_SKIP: opt->bits.skip = 0; return 1;
+    case OPT_FIT: opt->fit_path = arg; return 1;
+    case OPT_LEARN_FIT: opt->learn_path = arg; return 1;
+    case OPT_TIME_CODES: opt->bits.time_codes = 1; return 1;
+    case OPT_PLANE_CODES: opt->bits.plane_codes = 1; return 1;
+    case OPT_GENDER: return parse_gender(opt, arg);
+    case OPT_STRICT: opt->strict = 1; return 1;
     case OPT_INTRA: return whole_number(opt, "intra", arg, 1, 10000, &opt->bits.intra);
     case OPT_PLANES: opt->planes = 1; return 1;
     case OPT_JSON: opt->json = 1; return 1;
@@ -199,6 +301,12 @@ static int parse_option(options *opt, int c, const char *arg)
     }
 }
 
+int options_want_bits(const options *opt)
+{
+    const char *dot = opt->output ? strrchr(opt->output, '.') : NULL;
+    return dot && !strcasecmp(dot, ".fba");
+}
+
 static int check(options *opt)
 {
     if (!opt->input)
@@ -207,6 +315,13 @@ static int check(options *opt)
         tool_error("where to? -o OUT.fap, or -o - for standard output");
     else if (opt->command == COMMAND_ENCODE && opt->json && !strcmp(opt->output, "-"))
         tool_error("-o - and --json would both write to standard output");
+    else if (opt->learn_path && (opt->command == COMMAND_INSPECT || !options_want_bits(opt)))
+        tool_error("--learn-fit %s: a table is learnt for an .fba that is written, -o OUT.fba",
+                   opt->learn_path);
+    else if (opt->learn_path && !strcmp(opt->learn_path, opt->output))
+        tool_error("--learn-fit and -o name the same file");
+    else if (opt->planes && opt->command != COMMAND_INSPECT)
+        tool_error("--planes belongs to fapenc inspect");
     else if (opt->capture.end_s > 0 && opt->capture.end_s <= opt->capture.start_s)
         tool_error("--end %g is not after --start %g", opt->capture.end_s, opt->capture.start_s);
     else

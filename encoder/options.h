@@ -17,12 +17,19 @@ typedef struct options {
     int rate_given;      /* --fps was there */
     fap_capture_config capture;
     fap_encoder_config bits; /* how an .fba is coded; its rate is the frames' */
-    int planes;              /* inspect: a line each */
+    const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */
+    const char *bank_path;   /* the face that errors are measured on; NULL: find one; "builtin" */
+    const char *fit_path, *learn_path;
+    int strict;
+    int planes; /* inspect: a line each */
     int json;
     int exit_status; /* when parsing says to stop */
 } options;
 
 /* 0: stop with opt->exit_status; help, version or what is wrong has been printed. */
 int options_parse(options *opt, int argc, char **argv);
+
+/* 1: the output is an .fba, by its name. */
+int options_want_bits(const options *opt);
 
 #endif

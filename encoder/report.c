@@ -8,36 +8,30 @@
 #include "encoder/report.h"
 #include "encoder/report_capture.h"
 #include "encoder/report_inspect.h"
+#include "encoder/report_written.h"
 
-static void say_stream_notes(const stream_summary *s)
+static void say_stream_notes(const run_report *rep)
 {
+    const stream_summary *s = &rep->stream;
+
     for (int i = 0; i < s->notice_count; i++)
         tool_note("%s %" PRId64 ": %s", strcmp(s->format, "fba") ? "line" : "bit", s->notice[i].where,
                   s->notice[i].text);
     if (s->broken_planes)
-        tool_note("%" PRIu64 " planes are broken and were passed over", s->broken_planes);
-}
-
-static void say_written(const options *opt, const run_report *rep)
-{
-    const fap_encoder_stats *w = &rep->written;
-
-    if (w->frames)
-        tool_note("%s: %" PRId64 " bytes, %" PRId64 " I planes", opt->output, w->bytes, w->intra_frames);
-    if (w->clipped)
-        tool_note("note: %" PRId64
-                  " values are beyond what a plane can carry at this --quant; later planes catch up",
-                  w->clipped);
+        tool_note("%" PRIu64 " plane%s broken and passed over: %s", s->broken_planes,
+                  s->broken_planes == 1 ? " is" : "s are", rep->first_broken);
+    if (*rep->fit_found)
+        tool_note("note: interpolates by %s", rep->fit_found);
 }
 
 static void report_transcoded(const options *opt, const run_report *rep)
 {
     if (opt->json)
         inspect_json(opt, rep);
-    else
+    else if (!rep->written.bits)
         tool_note("%s: %" PRIu64 " frames at %g Hz, %d FAPs", opt->output, rep->stream.frames,
                   rep->stream.header.rate_hz, stream_coded_faps(&rep->stream));
-    say_stream_notes(&rep->stream);
+    say_stream_notes(rep);
 }
 
 static void report_success(const options *opt, const run_report *rep)
@@ -50,7 +44,7 @@ static void report_success(const options *opt, const run_report *rep)
         (opt->json ? report_capture_json : report_capture_say)(opt, rep);
     else
         report_transcoded(opt, rep);
-    say_written(opt, rep);
+    report_written_say(opt, &rep->written);
 }
 
 int report_print(const options *opt, const run_report *rep, fap_err err)

@@ -6,6 +6,7 @@
 #include "common/json.h"
 #include "common/tool.h"
 #include "encoder/report_capture.h"
+#include "encoder/report_written.h"
 
 static const char *const fapu_names[5] = { "IRISD", "ES", "ENS", "MNS", "MW" };
 
@@ -265,10 +266,7 @@ void report_capture_json(const options *opt, const run_report *rep)
     json_string(&j, "output", opt->output);
     json_integer(&j, "frames", r->frames);
     json_number(&j, "rate_hz", r->rate_hz);
-    if (rep->written.frames) {
-        json_integer(&j, "bytes", rep->written.bytes);
-        json_integer(&j, "clipped", rep->written.clipped);
-    }
+    report_written_json(&j, opt, &rep->written);
     json_markers(&j, rep, r);
     json_cleaning(&j, r);
     json_head(&j, rep, r);

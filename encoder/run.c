@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "common/fapu_file.h"
 #include "common/file.h"
+#include "common/fit_file.h"
 #include "encoder/run.h"
 
 static const size_t max_input = (size_t)1 << 30, max_table = (size_t)1 << 20;
@@ -26,69 +26,22 @@ static fap_err fail_errno(run_report *rep, fap_err err, const char *path)
     return fail(rep, err, path, err == FAP_E_IO && errno ? strerror(errno) : NULL);
 }
 
-/* --- writing --- */
-
-/* Gives frames to a writer. */
-typedef struct frame_source {
-    const fap_frame *frames; /* NULL: the stream in @c data */
-    const uint8_t *data;
-    size_t size;
-} frame_source;
-
-static fap_err put_frame(void *user, const fap_frame *frame)
-{
-    return stream_writer_put(user, frame);
-}
-
-static int wants_bits(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && !strcasecmp(dot, ".fba");
-}
-
-static fap_err put_all(stream_writer *w, const fap_ascii_header *header, const frame_source *src)
-{
-    char where[FAP_ERROR_TEXT_SIZE];
-    stream_summary again;
-    const frame_sink sink = { .put = put_frame, .user = w };
-    fap_err err = FAP_OK;
-
-    if (!src->frames)
-        return stream_read(src->data, src->size, NULL, &again, &sink, where);
-    for (int64_t i = 0; i < header->frame_count && err == FAP_OK; i++)
-        err = stream_writer_put(w, &src->frames[i]);
-    return err;
-}
-
-static fap_err write_frames(const options *opt, run_report *rep, const fap_writer *out,
-                            const fap_ascii_header *header, const frame_source *src)
-{
-    fap_encoder_config bits = opt->bits;
-    stream_writer w;
-
-    bits.rate_hz = header->rate_hz;
-    fap_err err = stream_writer_open(&w, out, header, wants_bits(opt->output) ? &bits : NULL);
-    if (err == FAP_OK)
-        err = put_all(&w, header, src);
-    const fap_err closed = stream_writer_close(&w, &rep->written);
-    return err != FAP_OK ? err : closed;
-}
+/* --- what comes out --- */
 
 static fap_err write_output(const options *opt, run_report *rep, const fap_ascii_header *header,
                             const frame_source *src)
 {
-    out_file out;
+    char where[FAP_ERROR_TEXT_SIZE];
+    const char *path;
+    const fap_err err =
+        output_write(opt, header, src, opt->fit_path ? rep->fit : NULL, &rep->written, &path, where);
 
-    errno = 0;
-    if (out_file_open(&out, opt->output) != FAP_OK)
-        return fail_errno(rep, FAP_E_IO, opt->output);
-    const fap_writer w = file_writer(out.stream);
-    const fap_err err = write_frames(opt, rep, &w, header, src);
-    if (err != FAP_OK) {
-        out_file_abandon(&out);
-        return fail_errno(rep, err, opt->output);
-    }
-    return out_file_commit(&out) == FAP_OK ? FAP_OK : fail_errno(rep, FAP_E_IO, opt->output);
+    if (err == FAP_OK)
+        return FAP_OK;
+    if (err == FAP_E_LIMIT && !*where)
+        return fail(rep, err, path,
+                    "longer than can be written: too many frames, or over 4096 are left out in a row");
+    return *where ? fail(rep, err, path, where) : fail_errno(rep, err, path);
 }
 
 /* The file's own name, without folders and ending; the format's header holds one word. */
@@ -102,54 +55,70 @@ static void sequence_name(const char *path, char *out, size_t room)
         snprintf(out, room, "take");
 }
 
-/* --- commands --- */
+/* --- streams --- */
+
+/* The table of --fit; for an .fba that is read, else the one beside it. */
+static fap_err find_fit(const options *opt, run_report *rep, int reads_bits)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    const char *path = opt->fit_path;
+
+    if (!path && reads_bits && fit_file_beside(opt->input, rep->fit_found, sizeof rep->fit_found))
+        path = rep->fit_found;
+    if (!path)
+        return FAP_OK;
+    const fap_err err = fit_file_read(&rep->fit, path, where);
+    return err == FAP_OK ? FAP_OK : fail(rep, err, path, where);
+}
+
+static fap_err read_stream(const options *opt, run_report *rep, const uint8_t *data, size_t size,
+                           const frame_sink *sink)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+
+    rep->is_stream = 1;
+    rep->reading = (stream_options){ opt->strict, rep->fit };
+    const fap_err err = stream_read(data, size, &rep->reading, &rep->stream, sink, where);
+    snprintf(rep->first_broken, sizeof rep->first_broken, "%s", where);
+    return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
+}
 
 static fap_err transcode(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
     fap_ascii_header header = rep->stream.header;
 
-    header.frame_count = (int64_t)rep->stream.frames;
     snprintf(header.version, sizeof header.version, "2.1");
     if (!header.present)
         sequence_name(opt->input, header.name, sizeof header.name);
-    const frame_source src = { NULL, data, size };
+    const frame_source src = { .data = data, .size = size, .options = &rep->reading };
     return write_output(opt, rep, &header, &src);
-}
-
-static fap_err summarise(const options *opt, run_report *rep, const uint8_t *data, size_t size)
-{
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-
-    rep->is_stream = 1;
-    const fap_err err = stream_read(data, size, NULL, &rep->stream, NULL, where);
-    return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
 }
 
 static fap_err inspect(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-    frame_sink sink;
+    const int bits = stream_is_bits(data, size);
 
-    rep->is_stream = 1;
-    if (!stream_is_bits(data, size))
-        return summarise(opt, rep, data, size);
+    if (find_fit(opt, rep, bits) != FAP_OK)
+        return FAP_E_DATA;
+    if (!bits)
+        return read_stream(opt, rep, data, size, NULL);
     rep->inspection = calloc(1, sizeof *rep->inspection);
     if (!rep->inspection)
         return fail(rep, FAP_E_NOMEM, opt->input, NULL);
     rep->inspection->keep_planes = opt->planes;
-    sink = inspection_sink(rep->inspection);
-    const fap_err err = stream_read(data, size, NULL, &rep->stream, &sink, where);
+    const frame_sink sink = inspection_sink(rep->inspection);
+    const fap_err err = read_stream(opt, rep, data, size, &sink);
     inspection_end(rep->inspection, size);
-    return err == FAP_OK ? FAP_OK : fail(rep, err, opt->input, where);
+    return err;
 }
+
+/* --- captures --- */
 
 static fap_err write_capture(const options *opt, run_report *rep)
 {
     const fap_capture_report *r = fap_capture_report_get(rep->capture);
-    fap_ascii_header header = {
-        .version = "2.1", .rate_hz = r->rate_hz, .frame_count = r->frames, .present = 1
-    };
-    const frame_source src = { .frames = fap_capture_frames(rep->capture) };
+    fap_ascii_header header = { .version = "2.1", .rate_hz = r->rate_hz, .present = 1 };
+    const frame_source src = { .frames = fap_capture_frames(rep->capture), .count = (size_t)r->frames };
 
     sequence_name(opt->input, header.name, sizeof header.name);
     return write_output(opt, rep, &header, &src);
@@ -189,6 +158,20 @@ static fap_err encode(const options *opt, run_report *rep)
     return write_capture(opt, rep);
 }
 
+/* @p where: why it is no capture. A text that has no frame is taken for one. */
+static fap_err encode_stream(const options *opt, run_report *rep, const uint8_t *data, size_t size,
+                             const char *where)
+{
+    const fap_err err = read_stream(opt, rep, data, size, NULL);
+
+    if (err == FAP_OK && rep->stream.frames)
+        return transcode(opt, rep, data, size);
+    rep->is_stream = 0;
+    if (stream_is_bits(data, size) || opt->strict)
+        return err;
+    return fail(rep, FAP_E_UNKNOWN_FORMAT, opt->input, where);
+}
+
 /* Not a capture? A FAP file has nothing to sniff by, so it is what is left to try. */
 static fap_err encode_bytes(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
@@ -198,16 +181,15 @@ static fap_err encode_bytes(const options *opt, run_report *rep, const uint8_t *
     fap_take_config_init(&cfg);
     cfg.rate_hz = opt->take_rate_hz;
     cfg.mm_per_unit = opt->mm_per_unit;
-    const fap_err err = fap_take_read(&rep->take, data, size, &cfg, where);
+    const int bits = stream_is_bits(data, size);
+    if (find_fit(opt, rep, bits) != FAP_OK)
+        return FAP_E_DATA;
+    const fap_err err = bits ? FAP_E_UNKNOWN_FORMAT : fap_take_read(&rep->take, data, size, &cfg, where);
     if (err == FAP_OK)
         return encode(opt, rep);
     if (err != FAP_E_UNKNOWN_FORMAT)
         return fail(rep, err, opt->input, where);
-    if (summarise(opt, rep, data, size) != FAP_OK || !rep->stream.frames) {
-        rep->is_stream = 0;
-        return fail(rep, err, opt->input, where);
-    }
-    return transcode(opt, rep, data, size);
+    return encode_stream(opt, rep, data, size, where);
 }
 
 fap_err run(const options *opt, run_report *rep)
@@ -231,4 +213,5 @@ void run_close(run_report *rep)
     if (rep->inspection)
         inspection_free(rep->inspection);
     free(rep->inspection);
+    fap_fit_close(&rep->fit);
 }

@@ -8,6 +8,7 @@
 #include "common/streams.h"
 #include "encoder/inspection.h"
 #include "encoder/options.h"
+#include "encoder/output.h"
 
 /* Everything that report.c needs; parts that do not apply are empty. */
 typedef struct run_report {
@@ -16,10 +17,14 @@ typedef struct run_report {
     fap_take *take;                       /* as read */
     fap_capture *capture;
     stream_summary stream;
-    inspection *inspection;    /* of an .fba that was inspected */
-    fap_encoder_stats written; /* of an .fba that was written */
-    int is_stream;             /* the input was a FAP file */
-    int rate_assumed;          /* the take's rate is --fps, for want of a better one */
+    inspection *inspection; /* of an .fba that was inspected */
+    stream_options reading;
+    char first_broken[FAP_ERROR_TEXT_SIZE]; /* why the first broken plane is */
+    fap_fit *fit;                           /* of --fit, or beside the input */
+    char fit_found[4096];                   /* beside the input, "" where not */
+    written_report written;
+    int is_stream;    /* the input was a FAP file */
+    int rate_assumed; /* the take's rate is --fps, for want of a better one */
 } run_report;
 
 fap_err run(const options *opt, run_report *rep);

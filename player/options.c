@@ -77,6 +77,12 @@ static int set_output(play_options *o, const char *text)
     return text[0] != '\0';
 }
 
+static int set_fit(play_options *o, const char *text)
+{
+    o->fit = text;
+    return text[0] != '\0';
+}
+
 static int set_bank(play_options *o, const char *text)
 {
     o->bank = text;
@@ -249,6 +255,7 @@ typedef struct option_row {
 
 static const option_row rows[] = {
     { "output", set_output, "a file name" },
+    { "fit", set_fit, "an interpolation table" },
     { "bank", set_bank, "a .fbank file or 'builtin'" },
     { "blend", set_blend, "ga, zhu, qp, pca or rbf" },
     { "regions", set_regions, "1, 2 or 4" },
@@ -297,6 +304,10 @@ static const char help_text[] =
     "                           (build/golden/NAME without -o); exit 1 when anything does\n"
     "      --update             write DIR/NNNN.png instead\n"
     "      --tolerance T        allowed difference of a channel, 0 to 255 (2)\n"
+    "\n"
+    "The stream:\n"
+    "  --fit FILE               interpolation table for FAPs that are not sent (take.fit beside take.fba is "
+    "found by itself)\n"
     "\n"
     "The face:\n"
     "  --bank B.fbank           the face (the default face; the built-in one where there is none); or "

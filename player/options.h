@@ -15,6 +15,7 @@ enum { PLAY_MAX_MOMENTS = 1024 };
 typedef struct play_options {
     const char *stream; /* "-": standard input */
     const char *bank;   /* NULL: find the default face; "builtin" */
+    const char *fit;    /* NULL: the one beside the stream, if any */
     const char *output, *golden, *audio;
     const play_sink *sink;
     fap_face_config face;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "common/file.h"
+#include "common/fit_file.h"
 #include "common/tool.h"
 #include "player/find_bank.h"
 #include "player/plan.h"
@@ -20,6 +21,7 @@ typedef struct player {
     const play_options *opt;
     play_report *report;
     timeline line;
+    fap_fit *fit;
     fap_bank *bank;
     fap_face *face;
     float *position, *normal; /* one block; normals are for pictures only */
@@ -48,6 +50,21 @@ static void note_deviations(player *p, const stream_summary *s, const char *wher
                          where);
 }
 
+/* The table of --fit; for an .fba, else the one beside it. */
+static int find_fit(player *p, int reads_bits)
+{
+    char where[FAP_ERROR_TEXT_SIZE], beside[REPORT_TEXT_SIZE];
+    const char *path = p->opt->fit;
+
+    if (!path && reads_bits && fit_file_beside(p->opt->stream, beside, sizeof beside)) {
+        path = beside;
+        play_report_note(p->report, "interpolates by %s", path);
+    }
+    if (path && fit_file_read(&p->fit, path, where))
+        return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", path, where);
+    return 1;
+}
+
 static int load_stream(player *p)
 {
     char where[FAP_ERROR_TEXT_SIZE] = "";
@@ -59,13 +76,18 @@ static int load_stream(player *p)
     if (err)
         return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream,
                          err == FAP_E_IO ? strerror(errno) : fap_strerror(err));
-    err = timeline_load(&p->line, data, size, &summary, where);
+    if (!find_fit(p, stream_is_bits(data, size))) {
+        free(data);
+        return 0;
+    }
+    const stream_options reading = { .fit = p->fit };
+    err = timeline_load(&p->line, data, size, &reading, &summary, where);
     free(data);
     if (err)
         return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream,
                          where[0] ? where : fap_strerror(err));
     note_deviations(p, &summary, where);
-    p->report->stream_frames = (int64_t)p->line.count;
+    p->report->stream_frames = (int64_t)summary.frames;
     p->report->stream_rate_hz = p->line.rate_hz;
     p->report->stream_s = (double)p->line.end_us * 1e-6;
     p->report->rate_hz = p->opt->rate_hz > 0 ? p->opt->rate_hz : p->line.rate_hz;
@@ -246,6 +268,7 @@ static void close_all(player *p)
     fap_face_close(&p->face);
     fap_bank_close(&p->bank);
     timeline_free(&p->line);
+    fap_fit_close(&p->fit);
 }
 
 void play_run(const play_options *o, play_report *r)

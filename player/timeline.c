@@ -29,12 +29,14 @@ static fap_err grow(timeline *t)
 /* What stream_read() hands frames to. */
 typedef struct append_target {
     timeline *line;
+    const fap_fit *fit;
     char *where;
+    uint32_t skipped; /* in front of the frame that comes next */
+    double rate_hz;
 } append_target;
 
-static fap_err append(void *user, const fap_frame *frame)
+static fap_err append(append_target *target, const fap_frame *frame)
 {
-    const append_target *target = user;
     timeline *t = target->line;
 
     if (t->count == TIMELINE_MAX_FRAMES || frame->pts_us > longest_us) {
@@ -46,18 +48,45 @@ static fap_err append(void *user, const fap_frame *frame)
     if (err)
         return err;
     t->frame[t->count] = *frame;
-    fap_derive(&t->frame[t->count++]);
+    fap_derive_with(target->fit, &t->frame[t->count++]);
     return FAP_OK;
 }
 
-fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, stream_summary *summary, char *where)
+static void take_plane(void *user, const fap_plane_info *plane, const fap_frame *frame)
+{
+    append_target *target = user;
+
+    (void)frame;
+    target->skipped = plane->skipped;
+    target->rate_hz = plane->rate_hz;
+}
+
+/* During skipped frames the face stays as it is: it starts to move one frame before the next that was sent. */
+static fap_err take_frame(void *user, const fap_frame *frame)
+{
+    append_target *target = user;
+    const timeline *t = target->line;
+
+    if (target->skipped && t->count) {
+        fap_frame held = t->frame[t->count - 1];
+        const int64_t last_us = frame->pts_us - timeline_time_us(1, target->rate_hz);
+        held.pts_us = last_us > held.pts_us ? last_us : held.pts_us;
+        const fap_err err = append(target, &held);
+        if (err)
+            return err;
+    }
+    return append(target, frame);
+}
+
+fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, const stream_options *options,
+                      stream_summary *summary, char *where)
 {
     char limit[FAP_ERROR_TEXT_SIZE] = "";
-    append_target target = { t, limit };
-    const frame_sink sink = { .put = append, .user = &target };
+    append_target target = { .line = t, .fit = options ? options->fit : NULL, .where = limit };
+    const frame_sink sink = { .put = take_frame, .user = &target, .plane = take_plane };
 
     *t = (timeline){ 0 };
-    fap_err err = stream_read(data, size, NULL, summary, &sink, where);
+    fap_err err = stream_read(data, size, options, summary, &sink, where);
     if (!err && !t->count) {
         snprintf(where, FAP_ERROR_TEXT_SIZE, "the stream has no frames");
         err = FAP_E_DATA;

@@ -16,7 +16,8 @@
 enum { TIMELINE_MAX_FRAMES = 1 << 19 }; /* 5.8 hours at 25 Hz, 200 MB */
 
 typedef struct timeline {
-    fap_frame *frame; /* [count], times never go back; what could be derived is derived */
+    fap_frame *frame; /* [count], times never go back; what could be derived is derived; where an .fba skips
+                         frames, the one before stands a second time in front of the next */
     size_t count, capacity;
     double rate_hz; /* the stream's own */
     int64_t end_us; /* when the last frame is over */
@@ -24,10 +25,12 @@ typedef struct timeline {
 
 /*
  * Reads a stream of either kind. Malformed or empty ones and those past the limits fail and leave @t empty.
+ * @options  how the stream is read; its table also serves FAPs that no frame carries
  * @summary  filled: what was read, and the deviations that were tolerated
  * @where    FAP_ERROR_TEXT_SIZE bytes: place and reason; of the first broken plane when all went well
  */
-fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, stream_summary *summary, char *where);
+fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, const stream_options *options,
+                      stream_summary *summary, char *where);
 void timeline_free(timeline *t);
 
 /* How many frames of @rate_hz begin before the stream is over. At the stream's own rate: as many as it has.

@@ -10,7 +10,7 @@
 static fap_err load(timeline *t, const char *stream, char *where)
 {
     stream_summary summary;
-    return timeline_load(t, (const uint8_t *)stream, strlen(stream), &summary, where);
+    return timeline_load(t, (const uint8_t *)stream, strlen(stream), NULL, &summary, where);
 }
 
 /* One frame in which FAP @a (and @b, where not 0; above @a) is coded. */
