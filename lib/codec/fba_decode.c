@@ -351,6 +351,7 @@ static void conceal(fap_decoder *d, fap_frame *out)
     i->bit_count = i->header_bits = i->setup_bits = i->range_bits = i->body_bits = i->run_bits = 0;
     i->intra = i->start_code = i->has_face = i->has_body = 0;
     i->skipped = 0;
+    i->rate_hz = fap_fba_rate_hz(d->time.rate_16, d->time.offset);
     memset(i->fap_bits, 0, sizeof i->fap_bits);
 }
 
