@@ -336,13 +336,17 @@ typedef struct head {
     uint8_t known[256];
 } head;
 
+static int32_t part_of(int32_t angle, int level)
+{
+    return (int32_t)((int64_t)angle * level / 255);
+}
+
 /* Angles scaled by the weight: the neck twists along its length and the skin does not shear. */
 static const float (*turn_of(head *h, int level))[3]
 {
     if (!h->known[level]) {
-        const float share = (float)level / 255;
-        fap_head_rotation((int32_t)((float)h->pitch * share), (int32_t)((float)h->yaw * share),
-                          (int32_t)((float)h->roll * share), h->turn[level]);
+        fap_head_rotation(part_of(h->pitch, level), part_of(h->yaw, level), part_of(h->roll, level),
+                          h->turn[level]);
         h->known[level] = 1;
     }
     return (const float(*)[3])h->turn[level];
