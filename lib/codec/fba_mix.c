@@ -9,7 +9,7 @@
 #include "codec/fba_encode.h"
 #include "codec/fba_mix.h"
 
-enum { PASSES = 3, CANDIDATES = 40, ERROR_SHIFT = 6, ERROR_MAX = 1 << 24, SLOT_WAYS = 4 };
+enum { PASSES = 2, CANDIDATES = 40, ERROR_SHIFT = 6, ERROR_MAX = 1 << 24, SLOT_WAYS = 4 };
 
 static const uint64_t not_permitted = (uint64_t)1 << 40;
 
@@ -179,8 +179,8 @@ static void step_on(const mix_search *m, const front *from, front *to, int i, in
     to->count = 0;
     for (int k = 0; k < from->count; k++) {
         list_ways(m, &from->state[k].value, &m->want[i], &w);
-        if (m->still[i] && !is_free)
-            w.count = 1;
+        if (!is_free && (m->still[i] || !fap_fba_mix_error(m, &m->want[i], &from->state[k].value)))
+            w.count = 1; /* to stay is the first way, and the best where nothing is wrong with it */
         for (int n = 0; n < w.count; n++) {
             const uint64_t bits = is_free ? 0 : bits_between(m, &from->state[k].value, &w.value[n]);
             relax(to, &w.value[n], from->cost[k] + (m->lambda[i] * bits >> 8), k);

@@ -5,7 +5,7 @@
 
 #include "codec/fba_cost.h"
 
-enum { MIX_FIELDS = 4, MIX_STATES = 6, MIX_LEVELS = 64 };
+enum { MIX_FIELDS = 4, MIX_STATES = 4, MIX_LEVELS = 64 };
 
 /* Levels in the order of the parameters: select, select, blend; or select, intensity, select, intensity. */
 typedef struct mix_value {

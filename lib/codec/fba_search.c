@@ -10,7 +10,7 @@
 #include "bank/sensitivity.h"
 #include "codec/fba_search.h"
 
-enum { PASSES = 2, BALANCE_ROUNDS = 12, COARSE_ROUNDS = 5, FULL = 1024, COARSE = 2 * SEARCH_OCTAVE };
+enum { PASSES = 2, BALANCE_ROUNDS = 8, COARSE_ROUNDS = 4, FULL = 1024, COARSE = 2 * SEARCH_OCTAVE };
 
 static const uint8_t quants[] = { 1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 30, 31 };
 enum { QUANTS = sizeof quants / sizeof *quants };
@@ -34,6 +34,7 @@ int fap_fba_search_open(fap_encoder *e)
     s->still = fap_mem_calloc(a, n, sizeof *s->still);
     s->lambda = fap_mem_calloc(a, n, sizeof *s->lambda);
     s->level = fap_mem_calloc(a, n, sizeof *s->level);
+    s->best_level = fap_mem_calloc(a, n, sizeof *s->best_level);
     s->fixed = fap_mem_calloc(a, n, sizeof *s->fixed);
     s->moving = fap_mem_calloc(a, n, sizeof *s->moving);
     s->state = fap_mem_calloc(a, n, sizeof *s->state);
@@ -43,7 +44,7 @@ int fap_fba_search_open(fap_encoder *e)
     s->sum = fap_mem_calloc(a, 2 * (n + 2 * WINDOW_MAX), sizeof *s->sum);
     s->load = fap_mem_calloc(a, n + WINDOW_MAX, sizeof *s->load);
     return s->want && s->column && s->next && s->best && s->best_left_out && s->still && s->lambda &&
-           s->level && s->fixed && s->moving && s->state && s->mix_want && s->mix_path && s->mix_state &&
+           s->level && s->best_level && s->fixed && s->moving && s->state && s->mix_want && s->mix_path && s->mix_state &&
            s->sum && s->load;
 }
 
@@ -61,6 +62,7 @@ void fap_fba_search_close(fap_encoder *e)
     fap_mem_free(&e->alloc, s->state);
     fap_mem_free(&e->alloc, s->moving);
     fap_mem_free(&e->alloc, s->fixed);
+    fap_mem_free(&e->alloc, s->best_level);
     fap_mem_free(&e->alloc, s->level);
     fap_mem_free(&e->alloc, s->lambda);
     fap_mem_free(&e->alloc, s->still);
@@ -515,10 +517,10 @@ static uint64_t balance(fap_encoder *e, int count, int intra, int rounds)
     return least;
 }
 
+/* Lambda is nearly the same for all quantisers: each goes on from the one before. */
 static uint64_t error_at(fap_encoder *e, int count, int quant)
 {
     e->plan.quant = quants[quant];
-    find_level(e, count, 1, SEARCH_OCTAVE);
     return balance(e, count, 1, COARSE_ROUNDS);
 }
 
@@ -535,35 +537,37 @@ static int index_of(int quant)
 static void find_quant(fap_encoder *e, int count)
 {
     fba_search *s = e->search;
-    int at = index_of(s->quant ? s->quant : 4), level;
-    uint64_t least = error_at(e, count, at);
+    const size_t size = (size_t)count * sizeof *s->level;
+    int at = index_of(s->quant ? s->quant : 4), best = at;
 
-    level = s->common_level;
-    for (int direction = -1; direction <= 1; direction += 2) {
-        const int begun = at;
-        while (at + direction >= 0 && at + direction < QUANTS) {
-            const uint64_t error = error_at(e, count, at + direction);
+    e->plan.quant = quants[at];
+    find_level(e, count, 1, SEARCH_OCTAVE);
+    uint64_t least = error_at(e, count, at);
+    memcpy(s->best_level, s->level, size);
+    for (int direction = -1; direction <= 1 && best == at; direction += 2)
+        for (int k = at + direction; k >= 0 && k < QUANTS && best == k - direction; k += direction) {
+            const uint64_t error = error_at(e, count, k);
             if (error >= least)
                 break;
             least = error;
-            level = s->common_level;
-            at += direction;
+            best = k;
+            memcpy(s->best_level, s->level, size);
         }
-        if (at != begun)
-            break;
-    }
-    s->common_level = level;
-    s->quant = quants[at];
-    e->plan.quant = quants[at];
+    memcpy(s->level, s->best_level, size);
+    s->quant = quants[best];
+    e->plan.quant = quants[best];
 }
 
 static void search_bitrate(fap_encoder *e, int count, int intra)
 {
     if (intra)
         find_quant(e, count);
-    find_level(e, count, intra, SEARCH_OCTAVE / 4);
+    else
+        find_level(e, count, intra, count > 1 ? SEARCH_OCTAVE : SEARCH_OCTAVE / 4);
     if (count > 1)
         balance(e, count, intra, BALANCE_ROUNDS);
+    else
+        fap_fba_try(e, count, intra);
 }
 
 /* --- FAP_ENCODE_ERROR --- */

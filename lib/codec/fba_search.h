@@ -17,7 +17,7 @@ typedef struct fba_search {
     int32_t (*best)[FBA_PARAMS];    /* [capacity] */
     uint8_t *best_left_out, *still; /* [capacity] */
     uint64_t *lambda;               /* [capacity] */
-    int32_t *level;                 /* [capacity] logarithm of lambda */
+    int32_t *level, *best_level;            /* [capacity] logarithm of lambda */
     uint32_t *fixed, *moving;       /* [capacity] bits that lambda does not change, and those it does */
     trellis_state (*state)[TRELLIS_STATES]; /* [capacity] */
     int64_t *sum;                           /* [2 * (capacity + 2 * WINDOW_MAX)] */

@@ -10,7 +10,7 @@
 enum {
     ERROR_SHIFT = 6,     /* errors count in units of 64 nm */
     ERROR_MAX = 1 << 24, /* a metre of them; squares of 10,000 frames still add up */
-    CANDIDATES = 4 * TRELLIS_STATES + 1,
+    CANDIDATES = 3 * TRELLIS_STATES,
 };
 
 static const uint64_t not_permitted = (uint64_t)1 << 40;
@@ -50,17 +50,24 @@ static int32_t between(int32_t v, int32_t min, int32_t max)
     return v < min ? min : v > max ? max : v;
 }
 
-/* From survivor @p k to wherever it may go. */
+static void move_by(const trellis *t, const front *from, int k, int i, int32_t level, front *to)
+{
+    const uint32_t bits = fba_cost_of_level(t->costs, level, t->total);
+    relax(to, from->state[k].place + level, from->cost[k] + (t->lambda[i] * bits >> 8), k);
+}
+
+/* From survivor @p k to wherever it may go: nowhere, or to the places on both sides of the value. */
 static void spread(const trellis *t, const front *from, int k, int i, int32_t near, front *to)
 {
-    const int32_t at = from->state[k].place;
-    const uint32_t all = fba_cost_of_size(t->costs, t->total);
+    const int32_t at = from->state[k].place,
+                  other = (int64_t)near * t->step < t->want[i] ? near + 1 : near - 1;
 
-    for (int32_t move = -2; move <= 1; move++) {
-        const int32_t level = move == -2 ? 0 : between(near + move - at, t->range.min, t->range.max);
-        const uint32_t bits = all - t->costs->log2[1 + t->costs->count[level + COST_LEVELS]];
-        relax(to, at + level, from->cost[k] + (t->lambda[i] * bits >> 8), k);
-    }
+    move_by(t, from, k, i, 0, to);
+    if (near == at)
+        return;
+    move_by(t, from, k, i, between(near - at, t->range.min, t->range.max), to);
+    if (other != at)
+        move_by(t, from, k, i, between(other - at, t->range.min, t->range.max), to);
 }
 
 static void add_errors(const trellis *t, front *f, int i)

@@ -5,7 +5,7 @@
 
 #include "codec/fba_cost.h"
 
-enum { TRELLIS_STATES = 6 };
+enum { TRELLIS_STATES = 4 };
 
 /* A survivor of one frame. */
 typedef struct trellis_state {
