@@ -178,6 +178,18 @@ int64_t fap_fba_allowance(const fap_encoder *e, int count, int intra)
     return mean - (e->search->intra_bits < all * 3 / 4 ? e->search->intra_bits : all * 3 / 4);
 }
 
+int64_t fap_fba_start_bits(const fap_encoder *e, int count)
+{
+    const fba_search *s = e->search;
+    const int frames = e->window.frames;
+    int64_t early = 0, late = 0;
+
+    for (int i = 0; i < count; i++)
+        *(i < frames ? &early : &late) += s->moving[i];
+    const int64_t more = count >= 3 * frames ? early - late * frames / (count - frames) : 0;
+    return (s->fixed[0] + (more > 0 ? more : 0)) / COST_BIT + 1;
+}
+
 /* --- I planes --- */
 
 /* At fap_quant 1, where levels are most. */

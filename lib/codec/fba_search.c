@@ -44,8 +44,8 @@ int fap_fba_search_open(fap_encoder *e)
     s->sum = fap_mem_calloc(a, 2 * (n + 2 * WINDOW_MAX), sizeof *s->sum);
     s->load = fap_mem_calloc(a, n + WINDOW_MAX, sizeof *s->load);
     return s->want && s->column && s->next && s->best && s->best_left_out && s->still && s->lambda &&
-           s->level && s->best_level && s->fixed && s->moving && s->state && s->mix_want && s->mix_path && s->mix_state &&
-           s->sum && s->load;
+           s->level && s->best_level && s->fixed && s->moving && s->state && s->mix_want && s->mix_path &&
+           s->mix_state && s->sum && s->load;
 }
 
 void fap_fba_search_close(fap_encoder *e)
@@ -533,29 +533,38 @@ static int index_of(int quant)
     return i;
 }
 
-/* Downhill from the quantiser of the run before. */
-static void find_quant(fap_encoder *e, int count)
+/* Is quantiser @p k better than the best one so far? */
+static void compare_quant(fap_encoder *e, int count, int k, int *best, uint64_t *least)
 {
     fba_search *s = e->search;
-    const size_t size = (size_t)count * sizeof *s->level;
-    int at = index_of(s->quant ? s->quant : 4), best = at;
+    const uint64_t error = error_at(e, count, k);
 
-    e->plan.quant = quants[at];
+    if (error >= *least)
+        return;
+    *least = error;
+    *best = k;
+    memcpy(s->best_level, s->level, (size_t)count * sizeof *s->level);
+}
+
+/* Errors over quantisers have several valleys: a coarse look at all, a fine one around the best. */
+static void find_quant(fap_encoder *e, int count)
+{
+    enum { STRIDE = 3 };
+    fba_search *s = e->search;
+    const int begin = index_of(s->quant ? s->quant : 5);
+    int best = begin;
+    uint64_t least = UINT64_MAX;
+
+    e->plan.quant = quants[begin];
     find_level(e, count, 1, SEARCH_OCTAVE);
-    uint64_t least = error_at(e, count, at);
-    memcpy(s->best_level, s->level, size);
-    for (int direction = -1; direction <= 1 && best == at; direction += 2)
-        for (int k = at + direction; k >= 0 && k < QUANTS && best == k - direction; k += direction) {
-            const uint64_t error = error_at(e, count, k);
-            if (error >= least)
-                break;
-            least = error;
-            best = k;
-            memcpy(s->best_level, s->level, size);
-        }
-    memcpy(s->level, s->best_level, size);
-    s->quant = quants[best];
-    e->plan.quant = quants[best];
+    for (int k = begin % STRIDE; k < QUANTS; k += STRIDE)
+        compare_quant(e, count, k, &best, &least);
+    const int middle = best;
+    for (int k = middle - 1; k <= middle + 1; k += 2)
+        if (k >= 0 && k < QUANTS)
+            compare_quant(e, count, k, &best, &least);
+    memcpy(s->level, s->best_level, (size_t)count * sizeof *s->level);
+    s->quant = e->plan.quant = quants[best];
 }
 
 static void search_bitrate(fap_encoder *e, int count, int intra)
@@ -661,7 +670,7 @@ void fap_fba_search_run(fap_encoder *e, int count, int intra)
     else
         search_bitrate(e, count, intra);
     if (intra)
-        e->search->intra_bits = (e->search->fixed[0] + COST_BIT - 1) / COST_BIT;
+        e->search->intra_bits = fap_fba_start_bits(e, count);
 }
 
 void fap_fba_search_done(fap_encoder *e, int done)

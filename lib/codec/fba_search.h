@@ -17,7 +17,7 @@ typedef struct fba_search {
     int32_t (*best)[FBA_PARAMS];    /* [capacity] */
     uint8_t *best_left_out, *still; /* [capacity] */
     uint64_t *lambda;               /* [capacity] */
-    int32_t *level, *best_level;            /* [capacity] logarithm of lambda */
+    int32_t *level, *best_level;    /* [capacity] logarithm of lambda */
     uint32_t *fixed, *moving;       /* [capacity] bits that lambda does not change, and those it does */
     trellis_state (*state)[TRELLIS_STATES]; /* [capacity] */
     int64_t *sum;                           /* [2 * (capacity + 2 * WINDOW_MAX)] */
@@ -26,7 +26,7 @@ typedef struct fba_search {
     mix_value *mix_want, *mix_path;     /* [capacity] */
     mix_state (*mix_state)[MIX_STATES]; /* [capacity] */
     int quant, common_level;            /* of the run before; quant 0: none yet */
-    int64_t intra_bits;                 /* of the last I plane */
+    int64_t intra_bits;                 /* of the last I plane, with what the models learnt behind it */
     uint64_t error, bits;               /* of the last trial */
 } fba_search;
 
@@ -57,6 +57,8 @@ uint32_t fap_fba_overhead(const fap_encoder *e, int i, int intra);
 int fap_fba_fullest(fap_encoder *e, int count, int intra);
 /* Moves lambda with the load of the windows over each frame, later rounds less. */
 void fap_fba_balance(fap_encoder *e, int count, int intra, int round);
+/* Bits of a trial's I plane, and of what its P planes take more at first than later. */
+int64_t fap_fba_start_bits(const fap_encoder *e, int count);
 /* Bits that the frames may take by the mean rate. */
 int64_t fap_fba_allowance(const fap_encoder *e, int count, int intra);
 /*
