@@ -127,16 +127,26 @@ static int32_t settle(int32_t value, int32_t at, int32_t step)
     return 2 * away <= step && -2 * away <= step ? at : fap_fba_nearest(value, step);
 }
 
+static int32_t between(int32_t v, int32_t min, int32_t max)
+{
+    return v < min ? min : v > max ? max : v;
+}
+
+/* As far as an I plane reaches, or a P plane from where it is. */
 static void settle_all(fap_encoder *e, int count, int intra)
 {
     const fba_coded_list *list = intra ? &e->plan_list : &e->face.list;
+    const int32_t widest = fap_fba_bound(FBA_BOUND_MAX, e->cfg.quant);
 
     for (int i = 0; i < count; i++) {
         const int32_t *from = i ? e->path[i - 1] : e->at;
         for (const fba_coded *c = list->of; c < list->of + list->count; c++) {
             const int32_t value = fap_fba_wanted(&e->queue[i].frame, c->param);
-            e->path[i][c->param] =
-                intra && !i ? fap_fba_nearest(value, c->step) : settle(value, from[c->param], c->step);
+            if (intra && !i)
+                e->path[i][c->param] = between(fap_fba_nearest(value, c->step), -widest, widest);
+            else
+                e->path[i][c->param] = between(settle(value, from[c->param], c->step),
+                                               from[c->param] - widest, from[c->param] + widest);
         }
     }
 }
@@ -227,8 +237,10 @@ static int plan_run(fap_encoder *e, int intra)
         fap_fba_search_run(e, count, intra);
     else
         settle_all(e, count, intra);
+    if (!intra && e->cfg.mode == FAP_ENCODE_ERROR)
+        return fap_fba_search_carried(e, count);
     if (!intra)
-        return e->cfg.mode == FAP_ENCODE_BITRATE ? count : carried(e, count);
+        return e->cfg.mode == FAP_ENCODE_QUANT ? carried(e, count) : count;
     fit_ranges(e, count);
     fap_fba_list_coded(&e->plan_list, &e->plan);
     return count;

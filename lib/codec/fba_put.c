@@ -34,8 +34,16 @@ static void follow_path(fap_encoder *e, const int32_t *path, plane_levels *l)
     }
 }
 
+/* With a fixed quantiser: farther than half a step, since no plane could carry more. */
+static int is_behind(const fap_frame *want, const fba_coded *c, int32_t at)
+{
+    const int64_t away =
+        c->param < FBA_FIRST_FAP ? 0 : 2 * ((int64_t)fap_fba_wanted(want, c->param) - (int64_t)at * c->step);
+    return away > c->step || -away > c->step;
+}
+
 /* Where the parameters are after the plane, and what the decoder shows. */
-static void take_levels(fap_encoder *e, const int32_t *path, const plane_levels *l)
+static void take_levels(fap_encoder *e, const fba_queued *q, const int32_t *path, const plane_levels *l)
 {
     for (int k = 0; k < l->list->count; k++) {
         const fba_coded *c = &l->list->of[k];
@@ -44,8 +52,9 @@ static void take_levels(fap_encoder *e, const int32_t *path, const plane_levels 
             fap_fba_note_change(e, c->param, ((int64_t)path[c->param] - from) * c->step);
         e->at[c->param] = from + l->level[k];
         e->face.motion.value[c->param] = e->at[c->param] * c->step;
+        e->stats.clipped += e->cfg.mode == FAP_ENCODE_QUANT && is_behind(&q->frame, c, e->at[c->param]);
     }
-    e->stats.clipped += l->clipped;
+    e->stats.clipped += e->cfg.mode == FAP_ENCODE_QUANT ? 0 : l->clipped;
     e->clipped_planes = l->clipped ? e->clipped_planes + 1 : 0;
 }
 
@@ -173,7 +182,7 @@ static put_result put_frame(fap_encoder *e, fap_bit_writer *w, const fba_queued 
     fap_fba_window_add(&e->window, q->number, (uint32_t)(w->at - before) + (before ? 0 : e->stuffing));
     if (intra)
         begin_group(e);
-    take_levels(e, path, &l);
+    take_levels(e, q, path, &l);
     e->face.motion.viseme_def = p.viseme_def;
     e->face.motion.init_face = p.init_face;
     e->face.motion.expression_def = p.expression_def;

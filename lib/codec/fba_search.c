@@ -620,6 +620,36 @@ static int is_fine_enough(const fap_encoder *e, int count, int quant)
     return 1;
 }
 
+/* Out of reach of the ranges in force, but not of an I plane. */
+static int asks_for_intra(fap_encoder *e, int i)
+{
+    int asks = 0;
+
+    for (int k = 0; k < e->face.list.count; k++) {
+        lane l = { e, &e->face.list.of[k], 0, 0, { 0 } };
+        if (is_mixed(l.c))
+            continue;
+        prepare(&l);
+        const int32_t place = fap_fba_nearest(l.t.want[i], l.t.step);
+        if (!fap_fba_error(&l.t, l.t.want[i], e->path[i][l.c->param]) || place > l.t.widest ||
+            place < -l.t.widest)
+            continue;
+        const int32_t from = i ? e->path[i - 1][l.c->param] : e->at[l.c->param];
+        fap_fba_note_change(e, l.c->param, ((int64_t)place - from) * l.t.step);
+        asks = 1;
+    }
+    return asks;
+}
+
+int fap_fba_search_carried(fap_encoder *e, int count)
+{
+    int i = 0;
+
+    while (i < count && !asks_for_intra(e, i))
+        i++;
+    return i;
+}
+
 static void search_error(fap_encoder *e, int count, int intra)
 {
     uint64_t fewest = UINT64_MAX;
