@@ -44,12 +44,21 @@ static int begins_something(const fap_bits *b, int drafts)
     }
 }
 
+/* A P plane of six bits, as a value that is well predicted takes no more, and one bit of stuffing. */
+static int is_short_plane(const fap_bits *b)
+{
+    const uint32_t bits = fap_bits_peek(b, b->at, 7), fba_object_mask = bits >> 4 & 3, run = bits >> 1 & 3;
+
+    return b->at % 8 == 1 && !(bits & 0x49) && (fba_object_mask == 1 || fba_object_mask == 2) &&
+           (run == 1 || run == 2);
+}
+
 int fap_fba_is_badly_stuffed(const fap_bits *b)
 {
     fap_bits aligned = *b;
 
     aligned.at = (b->at + 7) / 8 * 8;
-    return b->at % 8 && begins_something(&aligned, 0);
+    return b->at % 8 && begins_something(&aligned, 0) && !is_short_plane(b);
 }
 
 void fap_fba_seek_plane(fap_bits *b, int drafts)

@@ -10,6 +10,7 @@ enum { ENOUGH_PLANES = 64 };
 typedef struct outcome {
     int planes; /* parsed without a fault */
     int whole;  /* 2: they end where they should, or there were enough of them; 1: but for wrong stuffing */
+    int cut;    /* the data ended in one of them */
 } outcome;
 
 static int read_face(fba_face_reader *r, fba_face *f, int intra)
@@ -46,32 +47,35 @@ static outcome read_as(fap_bits b, fba_face f, int bound, model *models, model_p
 
     do {
         if (!read_face(&r, &f, h.intra))
-            return o;
+            break;
         o.planes++;
     } while (next_plane(&b, &h, &o));
+    o.cut = b.bad == BITS_PAST_END;
     return o;
 }
 
-/* Up to the next start code: hostile streams must not be read over and over. */
-static fap_bits until_next_code(const fap_bits *bits)
+/* Up to the next start code: hostile streams must not be read over and over. 0: there is none. */
+static int until_next_code(fap_bits *bits)
 {
     fap_bits b = *bits;
 
     fap_fba_seek_plane(&b, 1);
-    const uint64_t code = b.at;
-    b = *bits;
-    if (code + 32 <= b.end)
-        b.end = code + 32;
-    return b;
+    if (b.at + 32 > b.end)
+        return 0;
+    bits->end = b.at + 32;
+    return 1;
 }
 
 int fap_fba_trial(const fap_bits *bits, const fba_face *face, model *models, model_pool *pool)
 {
-    const fap_bits b = until_next_code(bits);
+    fap_bits b = *bits;
+    const int has_code = until_next_code(&b);
     const outcome said = read_as(b, *face, 0, models, pool);
 
     if (said.whole == 2)
         return 0;
     const outcome silent = read_as(b, *face, FBA_SILENT_BOUND, models, pool);
+    if (said.cut && !has_code && silent.whole != 2)
+        return 0; /* a stream that was cut proves nothing */
     return silent.whole > said.whole || silent.planes > said.planes ? FBA_SILENT_BOUND : 0;
 }
