@@ -80,6 +80,8 @@ fap_err encoder_setup_open(encoder_setup *s, const options *opt, const fap_fit *
     s->bits.sensitivity = &s->sensitivity;
     s->bits.fit = s->fit;
     s->bits.rate_hz = src->rate_hz;
+    /* A file has no borders between packets. */
+    s->bits.plane_codes |= !s->bits.look_ahead;
     /* Whoever gives a table wants it used. */
     if (s->fit && s->bits.derive < 0)
         s->bits.derive = 1;
