@@ -16,6 +16,19 @@ static void drop_before(inspection *in, int64_t pts_us)
         in->window_bits -= in->window[in->first++ % INSPECT_WINDOW].bits;
 }
 
+/* Stuffing in front of a start code ends what was sent before: a packet is whole bytes. */
+static int64_t code_at(const inspection *in, const fap_plane_info *p)
+{
+    const int64_t at = p->bit_position;
+    const size_t byte = (size_t)(at / 8);
+
+    if (!p->start_code)
+        return at;
+    if (at % 8)
+        return (at + 7) / 8 * 8;
+    return byte < in->size && in->data[byte] == 0x7F ? at + 8 : at;
+}
+
 /* Bits up to @p bit belong to the newest plane: stuffing, end code and what could not be decoded included. */
 static void close_plane(inspection *in, int64_t bit)
 {
@@ -32,12 +45,14 @@ static void open_plane(inspection *in, const fap_plane_info *p, int64_t pts_us)
 {
     const int64_t two_seconds_us = 2000000, rounding_us = 2;
 
-    close_plane(in, p->bit_position);
+    const int64_t at = code_at(in, p);
+
+    close_plane(in, at);
     drop_before(in, pts_us - two_seconds_us + rounding_us);
     if (in->last - in->first == INSPECT_WINDOW)
         in->window_bits -= in->window[in->first++ % INSPECT_WINDOW].bits;
     /* The object's start code is the first plane's. */
-    in->plane_at = in->last ? p->bit_position : 0;
+    in->plane_at = in->last ? at : 0;
     in->window[in->last % INSPECT_WINDOW].pts_us = pts_us;
     in->window[in->last++ % INSPECT_WINDOW].bits = 0;
 }
@@ -199,9 +214,9 @@ frame_sink inspection_sink(inspection *in)
     return (frame_sink){ .put = take_frame, .user = in, .plane = take_plane, .broken = take_broken };
 }
 
-void inspection_end(inspection *in, uint64_t stream_size)
+void inspection_end(inspection *in)
 {
-    close_plane(in, (int64_t)stream_size * 8);
+    close_plane(in, (int64_t)in->size * 8);
 }
 
 void inspection_free(inspection *in)

@@ -67,7 +67,7 @@ typedef struct inspection {
     fap_ranges ranges[FAP_COUNT + 1];
     uint64_t fap_bits[2][FAP_COUNT + 1]; /* of P, of I planes */
     uint64_t derived[FAP_COUNT + 1];     /* frames in which the decoder found it */
-    uint64_t largest_window_bits;        /* of two seconds, from a plane to the next all that lies between */
+    uint64_t largest_window_bits;        /* of two seconds; stuffing is of the plane in front of it */
     int broken_kept;
     broken_plane broken[INSPECT_MAX_BROKEN];
     plane_record *plane; /* when asked for */
@@ -80,12 +80,14 @@ typedef struct inspection {
     } window[INSPECT_WINDOW];
     uint64_t first, last, window_bits; /* last is behind the newest */
     int64_t plane_at;                  /* bit of the newest plane */
+    const uint8_t *data;               /* the stream, kept by the caller */
+    size_t size;
 } inspection;
 
-/* Whom stream_read() calls. @p in is zeroed but for keep_planes. */
+/* Whom stream_read() calls. @p in is zeroed but for keep_planes, data and size. */
 frame_sink inspection_sink(inspection *in);
 /* The stream is over: what lies behind its last plane counts as the last plane's. */
-void inspection_end(inspection *in, uint64_t stream_size);
+void inspection_end(inspection *in);
 void inspection_free(inspection *in);
 
 #endif

@@ -105,10 +105,10 @@ static fap_err inspect(const options *opt, run_report *rep, const uint8_t *data,
     rep->inspection = calloc(1, sizeof *rep->inspection);
     if (!rep->inspection)
         return fail(rep, FAP_E_NOMEM, opt->input, NULL);
-    rep->inspection->keep_planes = opt->planes;
+    *rep->inspection = (inspection){ .keep_planes = opt->planes, .data = data, .size = size };
     const frame_sink sink = inspection_sink(rep->inspection);
     const fap_err err = read_stream(opt, rep, data, size, &sink);
-    inspection_end(rep->inspection, size);
+    inspection_end(rep->inspection);
     return err;
 }
 

@@ -29,7 +29,7 @@ expect 0 "$B/fapenc" inspect "$T/a.fba" --planes
 
 expect 0 "$B/fapenc" inspect "$T/a.fba" --planes --json
 command -v python3 >/dev/null || skip "no python3 to read JSON with"
-python3 - "$T/out" <<'P' || fail "the JSON is not what was encoded"
+python3 - "$T/out" "$T/a.fba" <<'P' || fail "the JSON is not what was encoded"
 import json, sys
 j = json.load(open(sys.argv[1]))
 assert j["format"] == "fba" and j["rate_hz"] == 25 and j["frames"] == 100 and j["length_s"] == 4, j
@@ -54,10 +54,14 @@ planes = j["plane_list"]
 assert [q["frame"] for q in planes] == list(range(100))
 for a, b in zip(planes, planes[1:]):
     assert a["bit"] + a["bits"] == b["bit"], (a, b)
-# The fullest two seconds: counted here once more.
-ends = [q["bit"] for q in planes[1:]] + [j["bytes"] * 8]
-starts = [0] + ends[:-1]
-bits = [e - s for s, e in zip(starts, ends)]
+# The fullest two seconds: counted here once more. Stuffing in front of a code is of the plane before.
+data = open(sys.argv[2], "rb").read()
+def code_at(q):
+    at = q["bit"]
+    if not q["start_code"]: return at
+    return (at + 7) // 8 * 8 if at % 8 else at + 8 * (data[at // 8] == 0x7F)
+starts = [0] + [code_at(q) for q in planes[1:]]
+bits = [e - s for s, e in zip(starts, starts[1:] + [j["bytes"] * 8])]
 assert j["largest_2s_bits"] == max(sum(bits[k:k + 50]) for k in range(100)), j["largest_2s_bits"]
 P
 
