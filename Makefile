@@ -102,7 +102,7 @@ ALL_LIBS := $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
-$(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-render.a $(BASE)
+$(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)
 
@@ -140,7 +140,7 @@ fuzz:              ## run every fuzz target for FUZZ_TIME seconds (needs clang)
 	    build/fuzz/fuzz/$$t -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2048 -print_final_stats=0 -verbosity=0 \
 	        -artifact_prefix=build/fuzz/found/$$t/ build/fuzz/found/$$t tests/fuzz/corpus/$$t || exit 1; done
 fuzz-targets: $(FUZZ:%=$(B)/fuzz/%)
-$(B)/fuzz/%: $(B)/tests/fuzz/%.o $(B)/libfap-render.a $(BASE)
+$(B)/fuzz/%: $(B)/tests/fuzz/%.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)mkdir -p $(@D) && $(CC) -fsanitize=fuzzer,address,undefined $(CFLAGS) -o $@ $(filter %.o %.a,$^) $(ALL_LIBS)
 

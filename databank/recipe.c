@@ -24,15 +24,13 @@ typedef struct group_style {
 } group_style;
 
 typedef struct recipe {
-    const char *path;
+    const recipe_files *files;
     char name[64];
     float scale, neck_y[2]; /* heights where the head weight is 0 and 1 */
     group_style group[MAX_GROUPS];
     int group_count;
     fap_obj mesh;
     fap_bank_builder *builder;
-    char *bad;
-    size_t bad_size;
 } recipe;
 
 int recipe_is(const char *path)
@@ -47,22 +45,11 @@ int recipe_is(const char *path)
     return n == sizeof first_line - 1 && !memcmp(line, first_line, n);
 }
 
-/* The file beside the recipe. */
-static fap_err read_beside(const recipe *r, const char *name, uint8_t **data, size_t *size)
-{
-    char path[1024];
-    const char *slash = strrchr(r->path, '/');
-    const int folder = slash && *name != '/' ? (int)(slash - r->path) + 1 : 0;
-
-    const int n = snprintf(path, sizeof path, "%.*s%s", folder, r->path, name);
-    return n < 0 || (size_t)n >= sizeof path ? FAP_E_ARG : file_read(path, MAX_MESH, data, size);
-}
-
 static fap_err read_obj(const recipe *r, const char *name, fap_obj *out)
 {
     uint8_t *text;
     size_t size;
-    fap_err err = read_beside(r, name, &text, &size);
+    fap_err err = r->files->read(r->files->user, name, &text, &size);
 
     if (!err) {
         err = fap_obj_parse(out, (const char *)text, size, NULL);
@@ -269,7 +256,7 @@ static fap_err read_motion(const recipe *r, const char *file, float (*delta)[3])
     int line;
 
     if (ends_with(file, ".target")) {
-        fap_err err = read_beside(r, file, &text, &size);
+        fap_err err = r->files->read(r->files->user, file, &text, &size);
         if (!err) {
             err = fap_target_add((const char *)text, r->scale, delta, n, &line);
             free(text);
@@ -288,6 +275,15 @@ static fap_err read_motion(const recipe *r, const char *file, float (*delta)[3])
     return err;
 }
 
+/* -1: none. */
+static int small_number(const char *text)
+{
+    char *end;
+    const long n = strtol(text, &end, 10);
+
+    return end > text && !*end && n >= 0 && n < 100 ? (int)n : -1;
+}
+
 /* "jawOpen jaw.obj", a kind before it where it is no unit: "viseme 1 pp.obj", "expression 2 sad.obj", "extra
  * wink w.obj". */
 static fap_err take_key(recipe *r, fap_key_kind kind, const char *rest)
@@ -296,8 +292,8 @@ static fap_err take_key(recipe *r, fap_key_kind kind, const char *rest)
 
     if (sscanf(rest, "%31s %255[^\n]", name, file) != 2)
         return FAP_E_SYNTAX;
-    const int numbered = kind == FAP_KEY_VISEME || kind == FAP_KEY_EXPRESSION,
-              number = numbered ? atoi(name) : 0;
+    const int numbered = kind == FAP_KEY_VISEME || kind == FAP_KEY_EXPRESSION;
+    const int number = numbered ? small_number(name) : 0;
     const char *called = kind == FAP_KEY_VISEME       ? fap_viseme_name(number)
                          : kind == FAP_KEY_EXPRESSION ? fap_expression_name(number)
                                                       : name;
@@ -370,14 +366,14 @@ static fap_err take_line(recipe *r, char *line)
     return FAP_E_SYNTAX;
 }
 
-static fap_err take_lines(recipe *r, char *text)
+static fap_err take_lines(recipe *r, char *text, int *line)
 {
     for (int n = 1; *text; n++) {
         char *end = text + strcspn(text, "\n"), *next = end + (*end == '\n');
         *end = '\0';
         const fap_err err = n > 1 ? take_line(r, text) : FAP_OK;
         if (err) {
-            snprintf(r->bad, r->bad_size, "%s:%d", r->path, n);
+            *line = n;
             return err;
         }
         text = next;
@@ -385,22 +381,45 @@ static fap_err take_lines(recipe *r, char *text)
     return r->builder ? FAP_OK : FAP_E_DATA;
 }
 
+fap_err recipe_parse(fap_bank_builder **out, char *text, const recipe_files *files, int *line)
+{
+    recipe r = { .files = files, .name = "face", .scale = 1 };
+
+    *line = 0;
+    const fap_err err = take_lines(&r, text, line);
+    fap_obj_free(&r.mesh);
+    if (err)
+        fap_bank_builder_close(&r.builder);
+    *out = r.builder;
+    return err;
+}
+
+/* The file beside the recipe. */
+static fap_err read_beside(void *user, const char *name, uint8_t **data, size_t *size)
+{
+    char path[1024];
+    const char *recipe_path = user, *slash = strrchr(recipe_path, '/');
+    const int folder = slash && *name != '/' ? (int)(slash - recipe_path) + 1 : 0;
+
+    const int n = snprintf(path, sizeof path, "%.*s%s", folder, recipe_path, name);
+    return n < 0 || (size_t)n >= sizeof path ? FAP_E_ARG : file_read(path, MAX_MESH, data, size);
+}
+
 fap_err recipe_make(fap_bank_builder **out, const char *path, char *bad, size_t bad_size)
 {
-    recipe r = { .path = path, .name = "face", .scale = 1, .bad = bad, .bad_size = bad_size };
+    const recipe_files files = { read_beside, (char *)(uintptr_t)path };
     uint8_t *text;
     size_t size;
+    int line;
 
     *out = NULL;
     snprintf(bad, bad_size, "%s", path);
     fap_err err = file_read(path, MAX_RECIPE, &text, &size);
     if (err)
         return err;
-    err = take_lines(&r, (char *)text);
+    err = recipe_parse(out, (char *)text, &files, &line);
     free(text);
-    fap_obj_free(&r.mesh);
-    if (err)
-        fap_bank_builder_close(&r.builder);
-    *out = r.builder;
+    if (line)
+        snprintf(bad, bad_size, "%s:%d", path, line);
     return err;
 }

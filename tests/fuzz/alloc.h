@@ -16,6 +16,7 @@
 #include <stdlib.h>
 
 #include <fap/alloc.h>
+#include <fap/error.h>
 
 typedef struct fuzz_memory {
     long fail_at; /* which allocation fails, from 1; 0: none */
@@ -68,6 +69,13 @@ static inline int fuzz_memory_failed(const fuzz_memory *m)
 static inline void fuzz_memory_check(const fuzz_memory *m)
 {
     if (m->live)
+        abort();
+}
+
+/* What is sound fails for the memory alone; what is not may fail for either. */
+static inline void fuzz_memory_error(fap_err whole, fap_err without)
+{
+    if (whole == FAP_OK ? without != FAP_E_NOMEM : without == FAP_OK)
         abort();
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * Fuzzes fap_bank_load. Checksums are made right first, or the fuzzer would never get past them; a bank that loads is then
- * read to the last byte, since posing trusts it without a check.
+ * Fuzzes fap_bank_load. Checksums are made right first, or the fuzzer would never get past them; a bank that loads
+ * is then read to the last byte, since posing trusts it without a check. Then once more for every allocation,
+ * which fails.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 #include <fap/bank.h>
 
 #include "bank/format.h"
+#include "tests/fuzz/alloc.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -67,10 +69,27 @@ static long touch_mesh(const fap_bank *bank)
     return sum;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+/* Loads, looks, closes with the memory there is. */
+static fap_err load(const uint8_t *data, size_t size, fuzz_memory *m)
 {
+    const fap_allocator alloc = fuzz_allocator(m);
     volatile long sink = 0;
     fap_bank *bank;
+
+    const fap_err err = fap_bank_load(&bank, data, size, &alloc);
+    if ((err == FAP_OK) != (bank != NULL))
+        abort();
+    if (bank)
+        sink += touch_keys(bank) + touch_mesh(bank);
+    (void)sink;
+    fap_bank_close(&bank);
+    fuzz_memory_check(m);
+    return err;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_memory all = { 0 };
     uint8_t *copy = malloc(size + 1);
 
     if (!copy)
@@ -78,9 +97,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size)
         memcpy(copy, data, size);
     seal(copy, size);
-    if (fap_bank_load(&bank, copy, size, NULL) == FAP_OK)
-        sink += touch_keys(bank) + touch_mesh(bank);
-    fap_bank_close(&bank);
+    const fap_err whole = load(copy, size, &all);
+    for (long n = 1; n <= all.asked; n++)
+        fuzz_memory_error(whole, load(copy, size, &(fuzz_memory){ .fail_at = n }));
     free(copy);
-    return (int)(sink & 0);
+    return 0;
 }

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <fap/studio/take.h>
+#include "tests/fuzz/take.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -12,8 +12,6 @@ static const char *const heads[] = { "confidence,X_67,Y_67,Z_67,", "Trajectories
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char where[FAP_ERROR_TEXT_SIZE];
-    fap_take *take;
 
     if (!size)
         return 0;
@@ -24,8 +22,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     memcpy(text, head, head_size);
     memcpy(text + head_size, data + 1, size - 1);
-    if (fap_take_read(&take, text, total, NULL, where) == FAP_OK)
-        fap_take_close(&take);
+    fuzz_take(text, total);
     free(text);
     return 0;
 }

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <fap/studio/take.h>
+#include "tests/fuzz/take.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -13,16 +13,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const size_t total = sizeof head - 1 + size;
     char *text = malloc(total);
-    char where[FAP_ERROR_TEXT_SIZE];
-    fap_take *take;
 
     if (!text)
         return 0;
     memcpy(text, head, sizeof head - 1);
     if (size)
         memcpy(text + sizeof head - 1, data, size);
-    if (fap_take_read(&take, text, total, NULL, where) == FAP_OK)
-        fap_take_close(&take);
+    fuzz_take(text, total);
     free(text);
     return 0;
 }
