@@ -96,6 +96,10 @@ static void take_plane(bits_reading *r, const fap_plane_info *plane, const fap_f
 {
     stream_summary *s = r->summary;
 
+    if (plane->concealed) {
+        s->concealed++;
+        return;
+    }
     if (!s->frames)
         s->header.rate_hz = plane->rate_hz;
     s->rate_changes += s->frames && plane->rate_hz != r->rate_hz;

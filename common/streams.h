@@ -23,7 +23,8 @@ typedef struct stream_summary {
     uint64_t frames, intra_frames, broken_planes, size;
     uint64_t skipped;      /* frames of an .fba that lie between those that were sent */
     uint64_t rate_changes; /* of an .fba */
-    int64_t end_us;        /* when the last frame is over */
+    uint64_t concealed; /* frames of an .fba that had to be predicted: their I plane is broken or missing */
+    int64_t end_us;     /* when the last frame is over */
     stream_fap fap[FAP_COUNT + 1];
     struct {
         int64_t where; /* line or bit */
@@ -42,7 +43,8 @@ typedef struct stream_options {
 typedef struct frame_sink {
     fap_err (*put)(void *user, const fap_frame *frame);
     void *user;
-    /* Of an .fba, may be NULL: what the frame that is put next was made of; why a plane gave none. */
+    /* Of an .fba, may be NULL: what the frame that is put next was made of, unless it
+     * was predicted; why a plane gave none. */
     void (*plane)(void *user, const fap_plane_info *plane, const fap_frame *frame);
     void (*broken)(void *user, const char *where);
 } frame_sink;

@@ -28,6 +28,7 @@ static void put_bits_facts(json *j, const stream_summary *s, const inspection *i
     json_number(j, "largest_2s_kbit_s", (double)in->largest_window_bits / 2000);
     json_integer(j, "intra_frames", (int64_t)s->intra_frames);
     json_integer(j, "skipped_frames", (int64_t)s->skipped);
+    json_integer(j, "predicted_frames", (int64_t)s->concealed);
     json_integer(j, "broken_planes", (int64_t)s->broken_planes);
     json_integer(j, "rate_changes", (int64_t)s->rate_changes);
     json_integer(j, "planes_with_body", (int64_t)in->with_body);

@@ -266,8 +266,8 @@ static void say_broken(const stream_summary *s, const inspection *in)
 {
     if (!s->broken_planes)
         return;
-    printf("\n%" PRIu64 " plane%s broken and passed over\n", s->broken_planes,
-           s->broken_planes == 1 ? " is" : "s are");
+    printf("\n%" PRIu64 " plane%s broken and passed over; %" PRIu64 " frame%s had to be predicted\n",
+           s->broken_planes, s->broken_planes == 1 ? " is" : "s are", s->concealed, plural(s->concealed));
     for (int i = 0; i < in->broken_kept; i++)
         printf("  %s\n", in->broken[i].why);
     if (s->broken_planes > (uint64_t)in->broken_kept)

@@ -20,10 +20,10 @@ typedef struct passing {
     int begun;
 } passing;
 
-static void count_derived_as_coded(fap_frame *f)
+static void count_found_as_coded(fap_frame *f)
 {
     for (int fap = 1; fap <= FAP_COUNT; fap++)
-        if (f->state[fap] == FAP_DERIVED)
+        if (f->state[fap] == FAP_DERIVED || f->state[fap] == FAP_CONCEALED)
             f->state[fap] = FAP_CODED;
 }
 
@@ -58,7 +58,7 @@ static fap_err pass(void *user, const fap_frame *frame)
     fap_frame f = *frame;
     fap_err err = FAP_OK;
 
-    count_derived_as_coded(&f);
+    count_found_as_coded(&f);
     if (p->src->fill)
         err = fill(p, &f);
     p->last = f;

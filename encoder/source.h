@@ -18,8 +18,8 @@ typedef struct frame_source {
 } frame_source;
 
 /*
- * Every frame to @p put, in order. FAPs that the decoder derived count as coded: whoever reads what is written need
- * not be able to derive them.
+ * Every frame to @p put, in order. FAPs that the decoder derived or predicted count as coded: whoever reads what is
+ * written need not be able to.
  */
 fap_err frame_source_each(const frame_source *src, fap_err (*put)(void *user, const fap_frame *frame),
                           void *user);

@@ -75,6 +75,7 @@ static fap_err take_frame(void *user, const fap_frame *frame)
         if (err)
             return err;
     }
+    target->skipped = 0;
     return append(target, frame);
 }
 
