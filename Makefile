@@ -55,7 +55,7 @@ COMPILE   = mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(DEFS) $(CPPFLAGS) $(CFLAGS) 
 LINK      = mkdir -p $(@D) && $(CC) $(SAN) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o %.a,$^)
 SAY       = $(if $(V),,@echo "  $(1) $@")
 
-.PHONY: all help setup face test check unit cli demo bench asan fuzz install clean docs format
+.PHONY: all help setup face test check unit cli demo bench asan fuzz cross install clean docs format
 all: $(LIBS) $(TOOLS)
 
 # --- tables and objects --------------------------------------------------------------------------------------------
@@ -111,6 +111,20 @@ CONF_SRC := $(wildcard tests/conformance/*.c)
 $(B)/conformance: $(call obj,$(CONF_SRC)) $(B)/libfap.a
 	$(call SAY,LD)
 	$(Q)$(LINK) -lm
+
+# The codec without faces and kernels, for machines of other kinds: tests/cross/run.
+CODEC_SRC := $(filter-out lib/codec/ascii% lib/codec/fit_%,$(call notest,$(wildcard lib/base/*.c lib/param/*.c lib/codec/*.c))) \
+             lib/bank/sensitivity.c
+$(B)/libfap-codec.a: $(call obj,$(CODEC_SRC))
+CROSS_LIB ?= $(B)/libfap-codec.a
+$(B)/cross-conformance: $(call obj,$(CONF_SRC)) $(CROSS_LIB)
+	$(call SAY,LD)
+	$(Q)$(LINK) -lm
+$(B)/cross-encode: $(B)/tests/cross/encode.o $(CROSS_LIB)
+	$(call SAY,LD)
+	$(Q)$(LINK) -lm
+cross:             ## conformance and the encoder's bytes on other machines (qemu) and with other flags: all alike
+	$(Q)tests/cross/run
 
 setup:             ## install the Debian packages that are missing (scripts/packages.txt)
 	$(Q)scripts/setup
