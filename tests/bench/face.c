@@ -4,12 +4,12 @@
  * frames of smooth random FAPs every run.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include <fap/face.h>
 
 #include "bench.h"
+#include "takes.h"
 
 enum { FRAMES = 200, MODELS = 20, SEEDS = 10, PARTS = 3 };
 
@@ -18,27 +18,6 @@ typedef struct rig {
     fap_face *face;
     float *position, *normal;
 } rig;
-
-static size_t take(void *user, void *buf, size_t size)
-{
-    return fread(buf, 1, size, user);
-}
-
-static fap_bank *load(void)
-{
-    fap_bank *bank = NULL;
-    FILE *f = fopen("build/default.fbank", "rb");
-    fap_err err = FAP_E_IO;
-
-    if (f) {
-        const fap_reader reader = { take, f };
-        err = fap_bank_read(&bank, &reader, NULL);
-        fclose(f);
-    }
-    if (err)
-        err = fap_bank_builtin(&bank, NULL);
-    return err ? NULL : bank;
-}
 
 static void close_rig(rig *r)
 {
@@ -56,7 +35,7 @@ static int open_rig(rig *r, fap_blend blend, fap_crossover crossover, uint64_t s
     cfg.blend = blend;
     cfg.crossover = crossover;
     cfg.seed = seed;
-    *r = (rig){ .bank = load() };
+    *r = (rig){ .bank = bench_bank() };
     if (!r->bank || fap_face_open(&r->face, r->bank, &cfg) != FAP_OK) {
         close_rig(r);
         return 0;

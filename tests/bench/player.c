@@ -7,8 +7,8 @@
 #include <fap/face.h>
 
 #include "bench.h"
-#include "common/file.h"
 #include "player/render/renderer.h"
+#include "takes.h"
 
 enum { SIZE = 512, FRAMES = 120 };
 
@@ -19,23 +19,6 @@ typedef struct stage {
     float *position, *normal;
     image picture;
 } stage;
-
-/* The default face where it was built, the built-in one elsewhere. */
-static fap_bank *load_bank(void)
-{
-    fap_bank *bank = NULL;
-    uint8_t *data;
-    size_t size;
-
-    if (file_read("build/default.fbank", 1 << 28, &data, &size) == FAP_OK) {
-        if (fap_bank_load(&bank, data, size, NULL) != FAP_OK)
-            bank = NULL;
-        free(data);
-    }
-    if (!bank && fap_bank_builtin(&bank, NULL) != FAP_OK)
-        return NULL;
-    return bank;
-}
 
 static void close_stage(stage *s)
 {
@@ -51,7 +34,7 @@ static int open_stage(stage *s)
 {
     char where[FAP_ERROR_TEXT_SIZE];
 
-    *s = (stage){ .bank = load_bank() };
+    *s = (stage){ .bank = bench_bank() };
     if (!s->bank || fap_face_open(&s->face, s->bank, NULL) != FAP_OK)
         return 0;
     const size_t size = 3 * sizeof(float) * fap_face_stride(s->face);
