@@ -77,6 +77,7 @@ void fap_encoder_flush(fap_encoder *e)
 
 static void drop_frames(fap_encoder *e, int done)
 {
+    e->last_frame = e->queue[done - 1].frame;
     if (e->search)
         fap_fba_search_done(e, done);
     e->count -= done;

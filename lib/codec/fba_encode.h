@@ -46,7 +46,8 @@ struct fap_encoder {
     uint8_t *left_out;           /* [capacity] 1: the frame changes nothing and is not sent */
     fba_setup plan;              /* of an I plane */
     fba_coded_list plan_list;
-    uint8_t plan_set[FAP_COUNT + 1];
+    uint8_t plan_set[FAP_COUNT + 1];  /* FAPs that it stands for: coded, derived, or too dear to be sent */
+    uint8_t plan_left[FAP_COUNT + 1]; /* those left to the decoder */
     struct fba_search *search;        /* NULL with FAP_ENCODE_QUANT */
     uint64_t max_error;               /* nm, FAP_ENCODE_ERROR */
     int64_t permitted[FAP_COUNT + 1]; /* units of each FAP, of the group */
@@ -65,7 +66,7 @@ struct fap_encoder {
     int64_t last_coded;               /* frame number, -1: none */
     uint32_t stuffing;                /* bits at the end of the last packet */
     int32_t wanted[FBA_PARAMS];       /* last values asked for; not with FAP_ENCODE_QUANT */
-    fap_frame last_frame;             /* the last one that left the queue; likewise */
+    fap_frame last_frame;             /* the last one that left the queue */
     int32_t peak[FBA_PARAMS];         /* largest change that was asked for, fading; FAPs 3..68 */
 
     fap_frame *shown; /* [capacity] the last packet, reconstructed */
@@ -92,6 +93,17 @@ void fap_fba_note_change(fap_encoder *e, int param, int64_t change);
 void fap_fba_set_masks(fba_setup *s);
 void fap_fba_fit_range(fap_encoder *e, int param, const int32_t *place, size_t stride, int count);
 void fap_fba_set_range(fba_setup *s, int kind, int param, int32_t min, int32_t max);
+
+/* Marks frames whose path changes nothing. */
+void fap_fba_mark_unchanged(fap_encoder *e, const fba_coded_list *list, int count, int intra);
+
+/* --- fba_leave.c --- */
+
+/*
+ * Leaves FAPs to the decoder for the whole of a group: e->plan is that of an I plane, path is complete, for all
+ * FAPs coded so far. @p exactly: those that are shown within half a step, whatever the mode. 1: there were some.
+ */
+int fap_fba_leave_out(fap_encoder *e, int count, int exactly);
 
 /* --- fba_put.c --- */
 

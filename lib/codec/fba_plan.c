@@ -151,6 +151,29 @@ static void settle_all(fap_encoder *e, int count, int intra)
     }
 }
 
+/* --- frames that change nothing --- */
+
+static int says_the_same(const fap_frame *a, const fap_frame *b, const uint8_t *coded)
+{
+    return (!coded[1] || a->viseme.def == b->viseme.def) &&
+           (!coded[2] ||
+            (a->expression.def == b->expression.def && a->expression.init_face == b->expression.init_face));
+}
+
+void fap_fba_mark_unchanged(fap_encoder *e, const fba_coded_list *list, int count, int intra)
+{
+    const uint8_t *coded = intra ? e->plan.coded : e->face.setup.coded;
+
+    for (int i = 0; i < count; i++) {
+        const int32_t *from = i ? e->path[i - 1] : e->at;
+        const fap_frame *before = i ? &e->queue[i - 1].frame : &e->last_frame;
+        int same = e->cfg.skip && (i || !intra) && says_the_same(&e->queue[i].frame, before, coded);
+        for (int k = 0; same && k < list->count; k++)
+            same = e->path[i][list->of[k].param] == from[list->of[k].param];
+        e->left_out[i] = (uint8_t)same;
+    }
+}
+
 /* --- the plan --- */
 
 /* What was seen long ago counts for less. */
@@ -187,6 +210,7 @@ static void begin_setup(fap_encoder *e, int count)
     e->plan.quant = (uint8_t)e->cfg.quant;
     e->plan.gender = e->cfg.gender != 0;
     memcpy(e->plan.coded, e->plan_set, sizeof e->plan.coded);
+    memset(e->plan_left, 0, sizeof e->plan_left);
     fap_fba_set_masks(&e->plan);
 }
 
@@ -223,6 +247,15 @@ static int carried(fap_encoder *e, int count)
     return count;
 }
 
+static void settle_run(fap_encoder *e, int count, int intra)
+{
+    settle_all(e, count, intra);
+    if (intra && e->cfg.derive && e->capacity >= e->cfg.intra)
+        fap_fba_leave_out(e, count, 0);
+    if (e->cfg.skip)
+        fap_fba_mark_unchanged(e, intra ? &e->plan_list : &e->face.list, count, intra);
+}
+
 static int plan_run(fap_encoder *e, int intra)
 {
     const int left = e->cfg.intra - (intra ? 0 : e->since_intra), count = e->count < left ? e->count : left;
@@ -236,7 +269,7 @@ static int plan_run(fap_encoder *e, int intra)
     if (e->search)
         fap_fba_search_run(e, count, intra);
     else
-        settle_all(e, count, intra);
+        settle_run(e, count, intra);
     if (!intra && e->cfg.mode == FAP_ENCODE_ERROR)
         return fap_fba_search_carried(e, count);
     if (!intra)

@@ -30,6 +30,12 @@ static int64_t window_bits(const fap_encoder *e)
     return e->window.limit - ENCODER_END_BITS - e->window.limit / SLACK;
 }
 
+uint64_t fap_fba_square(const fap_encoder *e, int fap, int64_t units)
+{
+    const uint64_t nm = (uint64_t)(units < 0 ? -units : units) * e->sensitivity.nm[fap] >> 6;
+    return nm < 1 << 24 ? nm * nm : (uint64_t)1 << 48;
+}
+
 /* --- what planes take besides symbols --- */
 
 static int setup_bits(const fba_setup *s)
@@ -224,8 +230,7 @@ static uint64_t effect_of(const fap_encoder *e, int fap, int count)
             units = fap_viseme_distance(&f->viseme, &e->shown_now.viseme);
         if (fap == 2)
             units = fap_expression_distance(&f->expression, &e->shown_now.expression);
-        const uint64_t nm = (uint64_t)(units < 0 ? -units : units) * e->sensitivity.nm[fap] >> 6;
-        sum += nm < 1 << 24 ? nm * nm : (uint64_t)1 << 48;
+        sum += fap_fba_square(e, fap, units);
     }
     return sum;
 }
@@ -271,18 +276,12 @@ static int64_t extra_bits(const fap_encoder *e, const fba_coded *c, int32_t leve
     return (int64_t)log2[stay.high - stay.low] - log2[move.high - move.low];
 }
 
-static uint64_t squared(const fap_encoder *e, int fap, int64_t units)
-{
-    const uint64_t nm = (uint64_t)(units < 0 ? -units : units) * e->sensitivity.nm[fap] >> 6;
-    return nm < 1 << 24 ? nm * nm : (uint64_t)1 << 48;
-}
-
 static int is_worth(const fap_encoder *e, const fap_frame *want, const fba_coded *c, int32_t level,
                     int strength)
 {
     const int32_t value = fap_fba_wanted(want, c->param), at = e->at[c->param];
-    const uint64_t stay = squared(e, c->fap, (int64_t)value - (int64_t)at * c->step),
-                   move = squared(e, c->fap, (int64_t)value - (int64_t)(at + level) * c->step);
+    const uint64_t stay = fap_fba_square(e, c->fap, (int64_t)value - (int64_t)at * c->step),
+                   move = fap_fba_square(e, c->fap, (int64_t)value - (int64_t)(at + level) * c->step);
     const int64_t bits = extra_bits(e, c, level);
     const int octaves = e->search->common_level / SEARCH_OCTAVE + 2 * strength;
 

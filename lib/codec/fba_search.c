@@ -319,28 +319,6 @@ static uint64_t mix_error(fap_encoder *e, const fba_coded *c, int i, const int32
 
 /* --- a trial --- */
 
-static int says_the_same(const fap_frame *a, const fap_frame *b, const uint8_t *coded)
-{
-    return (!coded[1] || a->viseme.def == b->viseme.def) &&
-           (!coded[2] ||
-            (a->expression.def == b->expression.def && a->expression.init_face == b->expression.init_face));
-}
-
-/* P planes that change nothing. */
-static void leave_out(fap_encoder *e, const fba_coded_list *list, int count, int intra)
-{
-    const uint8_t *coded = intra ? e->plan.coded : e->face.setup.coded;
-
-    for (int i = 0; i < count; i++) {
-        const int32_t *from = i ? e->path[i - 1] : e->at;
-        const fap_frame *before = i ? &e->queue[i - 1].frame : &e->last_frame;
-        int same = e->cfg.skip && (i || !intra) && says_the_same(&e->queue[i].frame, before, coded);
-        for (int k = 0; same && k < list->count; k++)
-            same = e->path[i][list->of[k].param] == from[list->of[k].param];
-        e->left_out[i] = (uint8_t)same;
-    }
-}
-
 static void charge(lane *l)
 {
     fap_encoder *e = l->e;
@@ -368,7 +346,7 @@ static void try_frames(fap_encoder *e, const fba_coded_list *list, int count, in
             try_fap(&(lane){ e, &list->of[k], count, intra, { 0 } });
         else if (k == 0 || list->of[k - 1].fap != list->of[k].fap)
             try_mix(e, &list->of[k], count, intra);
-    leave_out(e, list, count, intra);
+    fap_fba_mark_unchanged(e, list, count, intra);
     for (int i = 0; i < count; i++) {
         s->fixed[i] = fap_fba_overhead(e, i, intra);
         s->moving[i] = 0;
@@ -377,6 +355,21 @@ static void try_frames(fap_encoder *e, const fba_coded_list *list, int count, in
         charge(&(lane){ e, &list->of[k], count, intra, { 0 } });
     for (int i = 0; i < count; i++)
         s->bits += s->fixed[i] + s->moving[i];
+}
+
+uint64_t fap_fba_worth(fap_encoder *e, int fap, int count)
+{
+    fba_search *s = e->search;
+    const fba_coded *c = e->plan_list.of;
+
+    while (c->fap != fap)
+        c++;
+    lane l = { e, c, count, 1, { 0 } };
+    for (int i = 0; i < count; i++)
+        s->column[i] = e->path[i][c->param];
+    prepare(&l);
+    return path_error(&l, s->column) + path_rate(&l, s->column, e->left_out, NULL) +
+           s->lambda[0] * fap_fba_table_bits();
 }
 
 /* --- frames that are not worth their bits --- */
@@ -567,18 +560,6 @@ static void find_quant(fap_encoder *e, int count)
     s->quant = e->plan.quant = quants[best];
 }
 
-static void search_bitrate(fap_encoder *e, int count, int intra)
-{
-    if (intra)
-        find_quant(e, count);
-    else
-        find_level(e, count, intra, count > 1 ? SEARCH_OCTAVE : SEARCH_OCTAVE / 4);
-    if (count > 1)
-        balance(e, count, intra, BALANCE_ROUNDS);
-    else
-        fap_fba_try(e, count, intra);
-}
-
 /* --- FAP_ENCODE_ERROR --- */
 
 /* Do two FAPs move the same place along its axes? */
@@ -691,14 +672,50 @@ void fap_fba_gather(fap_encoder *e, int count)
     }
 }
 
+/* What follows from other FAPs as they are needs no search. */
+static void leave_out_exact(fap_encoder *e, int count)
+{
+    e->plan.quant = 1;
+    fap_fba_list_coded(&e->plan_list, &e->plan);
+    for (int k = 0; k < e->plan_list.count; k++) {
+        const fba_coded *c = &e->plan_list.of[k];
+        const int32_t *want = e->search->want + (size_t)c->param * (size_t)e->capacity;
+        for (int i = 0; i < count; i++)
+            e->path[i][c->param] = fap_fba_nearest(want[i], c->step);
+    }
+    fap_fba_leave_out(e, count, 1);
+    fap_fba_list_coded(&e->plan_list, &e->plan);
+}
+
+static void search_bitrate(fap_encoder *e, int count, int intra)
+{
+    const int derives = intra && e->cfg.derive && e->capacity >= e->cfg.intra;
+
+    if (derives)
+        leave_out_exact(e, count);
+    if (intra)
+        find_quant(e, count);
+    else
+        find_level(e, count, intra, count > 1 ? SEARCH_OCTAVE : SEARCH_OCTAVE / 4);
+    if (count == 1) {
+        fap_fba_try(e, count, intra);
+        return;
+    }
+    balance(e, count, intra, BALANCE_ROUNDS);
+    if (derives && fap_fba_leave_out(e, count, 0))
+        balance(e, count, intra, BALANCE_ROUNDS);
+}
+
 void fap_fba_search_run(fap_encoder *e, int count, int intra)
 {
     if (!intra)
         fap_fba_gather(e, count);
-    if (e->cfg.mode == FAP_ENCODE_ERROR)
-        search_error(e, count, intra);
-    else
+    if (e->cfg.mode == FAP_ENCODE_BITRATE)
         search_bitrate(e, count, intra);
+    else
+        search_error(e, count, intra);
+    if (e->cfg.mode == FAP_ENCODE_ERROR && intra && e->cfg.derive && e->capacity >= e->cfg.intra)
+        fap_fba_leave_out(e, count, 0);
     if (intra)
         e->search->intra_bits = fap_fba_start_bits(e, count);
 }
@@ -707,7 +724,6 @@ void fap_fba_search_done(fap_encoder *e, int done)
 {
     if (!done)
         return;
-    e->last_frame = e->queue[done - 1].frame;
     for (int param = 0; param < FBA_PARAMS; param++)
         e->wanted[param] = e->search->want[(size_t)param * (size_t)e->capacity + (size_t)done - 1];
 }

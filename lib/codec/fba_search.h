@@ -46,7 +46,13 @@ void fap_fba_search_done(fap_encoder *e, int done);
 /* Tries lambda as it is in level: path, left_out, bits, error. */
 void fap_fba_try(fap_encoder *e, int count, int intra);
 
+/* What not to code a FAP is worth, after a trial of an I plane and what follows: its error and its bits. */
+uint64_t fap_fba_worth(fap_encoder *e, int fap, int count);
+
 /* --- fba_rate.c --- */
+
+/* An error as a trial counts it. */
+uint64_t fap_fba_square(const fap_encoder *e, int fap, int64_t units);
 
 /*
  * Before an I plane: leaves FAPs of least effect out of the plan until the plane takes no more than its share. 0: it

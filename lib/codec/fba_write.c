@@ -2,13 +2,7 @@
 /* See fba_write.h. */
 #include "codec/fba_write.h"
 
-enum {
-    MARKER_EVERY = 4,
-    HEADER_BITS = 1 + 2 + 1 + 13 + 1 + 1, /* an I plane's, without time code and skip */
-    FIXED_BITS =
-        5 + FAP_GROUPS * 3 + FAP_COUNT + 6 + 72, /* quantiser, masks, flags, markers of four tables */
-    TABLE_BITS = 4 * 5,                          /* of a FAP */
-};
+enum { MARKER_EVERY = 4, TABLE_BITS = 4 * 5 };
 
 void fap_fba_put_code(fap_bit_writer *w, int code)
 {
@@ -108,9 +102,9 @@ void fap_fba_put_setup(fap_bit_writer *w, const fba_setup *s)
         put_range_table(w, s, table);
 }
 
-int fap_fba_setup_bits(int faps)
+int fap_fba_table_bits(void)
 {
-    return HEADER_BITS + FIXED_BITS + faps * TABLE_BITS;
+    return TABLE_BITS;
 }
 
 /* --- symbols --- */

@@ -33,7 +33,7 @@ int fap_fba_put_symbols(fap_bit_writer *w, const fba_plane *p, const fba_coded_l
                         model_pool *pool, int count);
 /* Counts what was put without; 0: no memory. */
 int fap_fba_count_symbols(const fba_plane *p, const fba_coded_list *list, model *m, model_pool *pool);
-/* Bits of fap_fba_put_setup() with @p faps of FAPs 3..68 coded and all groups' masks sent: never less. */
-int fap_fba_setup_bits(int faps);
+/* Bits of the range tables for one FAP. */
+int fap_fba_table_bits(void);
 
 #endif
