@@ -9,7 +9,7 @@
 #include "codec/fba_encode.h"
 #include "codec/fba_mix.h"
 
-enum { PASSES = 2, CANDIDATES = 40, ERROR_SHIFT = 6, ERROR_MAX = 1 << 24, SLOT_WAYS = 4 };
+enum { PASSES = 2, CANDIDATES = 40, ERROR_SHIFT = 6, ERROR_MAX = 1 << 24, SLOT_WAYS = 3 };
 
 static const uint64_t not_permitted = (uint64_t)1 << 40;
 
@@ -87,12 +87,12 @@ static int slot_ways(const mix_search *m, const int8_t *from, int number, int in
                      int8_t out[SLOT_WAYS][2])
 {
     const int level = nearest_level(m, intensity);
-    const int8_t all[SLOT_WAYS][2] = {
-        { (int8_t)number, (int8_t)level }, { from[0], from[1] }, { from[0], 0 }, { (int8_t)number, from[1] }
-    };
+    const int8_t all[SLOT_WAYS][2] = { { (int8_t)number, (int8_t)level },
+                                       { from[0], from[1] },
+                                       { from[0], 0 } };
 
     memcpy(out, all, sizeof all);
-    return number && intensity ? 2 : SLOT_WAYS;
+    return number && intensity ? SLOT_WAYS - 1 : SLOT_WAYS;
 }
 
 static void propose_expression(const mix_search *m, const int8_t *from, const int8_t *first,
