@@ -7,7 +7,7 @@
 
 #include "bench.h"
 
-enum { FRAMES = 60000, FIRST_FAP = 3, ACTIVE = 58, RATE_HZ = 25, RUNS = 5 };
+enum { FRAMES = 60000, FIRST_FAP = 3, ACTIVE = 58, RATE_HZ = 25, RUNS = 15 };
 
 typedef struct memory {
     char *data;
@@ -105,7 +105,8 @@ static double best_fps(int (*work)(memory *, const fap_frame *))
     memory m = { 0 };
     double best = -1;
 
-    for (int run = 0; run < RUNS && frame && write_file(&m, frame); run++) {
+    const int written = frame && write_file(&m, frame);
+    for (int run = 0; run < RUNS && written; run++) {
         const double start = bench_now_s();
         const int frames = work(&m, frame);
         const double fps = frames / (bench_now_s() - start);
