@@ -1,9 +1,24 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /** @file
- * The encoder of FBA elementary streams (.fba), predictive mode, fixed quantiser. Frames are gathered into
- * groups, an I plane and the P planes behind it, so that the symbol ranges sent fit the data tightly; all
- * four range tables are sent in every I plane, which leaves no decoder a choice. Source: ISO/IEC 14496-2,
- * face object plane syntax, arithmetic coding of FAPs.
+ * The encoder of FBA elementary streams (.fba), predictive mode. Frames are gathered into groups, an I plane and the
+ * P planes behind it; all four range tables are sent in every I plane, which leaves no decoder a choice and lets one
+ * join there. Everything is decided in integers: the same frames and options give the same bytes on every machine.
+ * Source: ISO/IEC 14496-2, face object plane syntax, arithmetic coding of FAPs.
+ *
+ * What is promised, in each mode:
+ * - FAP_ENCODE_QUANT: every value that is shown is within half a step of the quantiser, and exact with quant 0. What no
+ *   plane can carry (I planes reach 1860 levels from 0, P planes 1860 levels from where they are, both divided by
+ *   fap_quant) is clipped, counted, and caught up with by the planes that follow; nothing wraps. Visemes and
+ *   expressions are sent to the letter, their strengths within half a step.
+ * - FAP_ENCODE_BITRATE: the bits of all planes shown in any half-open 2 seconds of media time, start codes, stuffing,
+ *   headers and end code included, are at most 2 * bitrate_bps. Frames are left out where it cannot be otherwise, at
+ *   the very end too; FAPs of least effect are not sent at all where an I plane would take more than 3/4 of a window.
+ * - FAP_ENCODE_ERROR: no place (feature point, eyeball, pupil, head, mix, as fap_sensitivity_compare() measures them) is
+ *   farther than max_error_mm from where it should be, as far as fap_quant 1 permits: half of its steps are the least
+ *   bound (for the head 0.13 mm an axis on a typical face), and clipped values are counted as above. The axes commanded
+ *   at a place share the budget evenly; the head's three angles share it by their sum.
+ * In the last two modes a mix of visemes or expressions may be said in another way that looks the same, and a FAP that
+ * stops being sent stays coded at its last value as long as that saves an I plane.
  */
 #ifndef FAP_ENCODER_H
 #define FAP_ENCODER_H
@@ -89,8 +104,11 @@ FAP_API size_t fap_encoder_bound(const fap_encoder *encoder);
  */
 FAP_API FAP_NODISCARD fap_err fap_encoder_receive(fap_encoder *encoder, uint8_t *data, size_t room,
                                                   size_t *size);
-/** The frames of the last packet as a decoder will show them (state FAP_CODED only). Lives until the next
- * call. */
+/**
+ * The frames of the last packet as a decoder will show them, states included; those that were left out hold what was
+ * before, with no FAP of state FAP_CODED. The packet with the end code repeats the last frame if that one had been left
+ * out. Lives until the next call.
+ */
 FAP_API const fap_frame *fap_encoder_reconstruction(const fap_encoder *encoder, int *count);
 FAP_API fap_encoder_stats fap_encoder_get_stats(const fap_encoder *encoder);
 /** Sets @p *encoder to NULL; accepts NULL. */

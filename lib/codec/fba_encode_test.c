@@ -454,6 +454,78 @@ TEST(encoder, more_error_takes_fewer_bits)
     }
 }
 
+/* --- what is left to the decoder --- */
+
+/* Both sides alike, and both contours of the lips. */
+static void make_symmetric(take *t)
+{
+    for (int i = 0; i < t->count; i++)
+        for (int fap = 3; fap <= FAP_COUNT; fap++) {
+            const int other =
+                fap_lip_pair(fap) && fap_lip_pair(fap) < fap ? fap_lip_pair(fap) : fap_mirror(fap);
+            if (other && other < fap)
+                t->frame[i].value[fap] = t->frame[i].value[other];
+        }
+}
+
+TEST(encoder, faps_that_follow_from_others_are_not_sent)
+{
+    for (int mode = FAP_ENCODE_QUANT; mode <= FAP_ENCODE_ERROR; mode++) {
+        fap_encoder_config cfg = config((fap_encoder_mode)mode);
+        talk(&given, 120, 66, 8);
+        make_symmetric(&given);
+        cfg.derive = 0;
+        cfg.bitrate_bps = 16000;
+        encode(&given, &cfg);
+        const int64_t bytes = got.stats.bytes;
+        assert_int_equal(got.stats.derived, 0);
+        cfg.derive = 1;
+        encode(&given, &cfg);
+        assert_true(got.stats.derived > 20 * 100);
+        assert_true(got.stats.bytes * 10 < bytes * 9);
+        if (mode == FAP_ENCODE_QUANT)
+            within_half_a_step(&given, cfg.quant);
+        if (mode == FAP_ENCODE_ERROR)
+            all_within(cfg.max_error_mm);
+    }
+}
+
+TEST(encoder, no_fap_is_derived_that_the_source_does_not_have)
+{
+    for (uint32_t seed = 0; seed < 6; seed++) {
+        fap_encoder_config cfg = config(FAP_ENCODE_QUANT);
+        cfg.derive = 1;
+        talk(&given, 60, 25 + 6 * (int)seed, seed);
+        make_symmetric(&given);
+        encode(&given, &cfg);
+        within_half_a_step(&given, cfg.quant);
+        for (int i = 0; i < given.count; i++)
+            for (int fap = 1; fap <= FAP_COUNT; fap++)
+                assert_int_equal(got.frame[i].state[fap] == FAP_ABSENT,
+                                 given.frame[i].state[fap] == FAP_ABSENT);
+    }
+}
+
+TEST(encoder, an_interpolation_table_is_used)
+{
+    static const char text[] = "fap-fit 1\nfrom f3\n    f18 = 0.5*f3\n";
+    fap_fit *fit;
+    fap_encoder_config cfg = config(FAP_ENCODE_ERROR);
+
+    assert_int_equal(fap_fit_parse(&fit, text, sizeof text - 1, NULL, NULL), FAP_OK);
+    talk(&given, 100, 0, 8);
+    for (int i = 0; i < given.count; i++) {
+        given.frame[i].state[3] = given.frame[i].state[18] = FAP_CODED;
+        given.frame[i].value[3] = i % 40 * 20;
+        given.frame[i].value[18] = i % 40 * 10;
+    }
+    cfg.fit = fit;
+    encode(&given, &cfg);
+    assert_int_equal(got.stats.derived, got.planes);
+    all_within(cfg.max_error_mm);
+    fap_fit_close(&fit);
+}
+
 /* --- skip, time codes, memory --- */
 
 TEST(encoder, frames_that_change_nothing_can_be_left_out)
