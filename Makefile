@@ -81,10 +81,11 @@ $(B)/libfap.so.$(VERSION): $(call obj,$(LIB_SRC))
 
 # --- tools ---------------------------------------------------------------------------------------------------------
 BASE := $(B)/libfap-common.a $(B)/libfap-studio.a $(B)/libfap.a
-$(B)/fapenc: $(call obj,$(ENC_SRC)) $(BASE)
+# Everything of a tool but main: the unit tests link it too.
+$(B)/libfap-enc.a: $(call obj,$(filter-out encoder/main.c,$(ENC_SRC)))
+$(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(SOUND_LIBS) $(STUDIO_LIBS) $(if $(PNG),-lpng) -lm
-# Everything of fapplay but main: the unit tests link it too.
 $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC)))
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
@@ -99,7 +100,7 @@ FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildc
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
 ALL_LIBS := $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
 
-$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
+$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
 $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)

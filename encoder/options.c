@@ -15,8 +15,7 @@
 
 static const char help[] =
     "Usage: fapenc TAKE -o OUT [options]       encode a capture; OUT is .fap (text) or .fba (bits)\n"
-    "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; both ways without loss at "
-    "--quant 0\n"
+    "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba\n"
     "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
     "\n"
     "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
@@ -46,8 +45,8 @@ static const char help[] =
     "      --bank B.fbank    the face to measure millimetres on (the default face, else a typical one)\n"
     "      --intra N         at least one I plane in so many frames; 250\n"
     "      --look-ahead N    frames to choose by; 250. 0: as live, every frame a packet of its own\n"
-    "      --derive, --no-derive   leave FAPs to the decoder that it can derive (not with --quant)\n"
-    "      --skip, --no-skip       leave frames out that change nothing (not with --quant)\n"
+    "      --derive, --no-derive   leave FAPs to the decoder that it can derive (yes, unless --quant)\n"
+    "      --skip, --no-skip       leave frames out that change nothing (yes, unless --quant)\n"
     "      --learn-fit FILE  find an interpolation table for the take, write it and use it; OUT.fit is found "
     "by "
     "itself\n"
