@@ -59,20 +59,22 @@ static void warn_missed(const options *opt, const written_report *w)
         tool_note("warning: --max-error %g could not be kept everywhere", b->max_error_mm);
 }
 
-/* Where players will look for the table. */
+/* Where players will look for the table, and what they must not find there. */
 static void say_table(const options *opt, const written_report *w)
 {
     const char *const path = opt->learn_path ? opt->learn_path : opt->fit_path;
-    char found[4096];
+    char beside[4096] = "";
+    const int is_there = fit_file_beside(opt->output, beside, sizeof beside);
 
     if (opt->learn_path)
         tool_note("%s: a table that gives %d FAP%s", path, w->fit_gives, plural(w->fit_gives));
-    if (!path || !w->stats.derived)
+    if (!w->stats.derived || (path && !strcmp(beside, path)))
         return;
-    if (!fit_file_name(opt->output, found, sizeof found))
-        tool_note("note: whoever plays the stream needs --fit %s", path);
-    else if (strcmp(found, path))
-        tool_note("note: whoever plays %s needs --fit %s, or that file as %s", opt->output, path, found);
+    if (path)
+        tool_note("note: whoever plays %s needs --fit %s", opt->output, path);
+    if (is_there)
+        tool_note("warning: %s was not made with %s, which players will take for its table: move that file",
+                  opt->output, beside);
 }
 
 /* --- what was reached --- */

@@ -84,6 +84,17 @@ enc --quant 3 --look-ahead 0 --intra 50 -o "$T/l.fba"
 look "$T/l.fba"
 holds "$(field "$T/look.json" frames) == 300 and $(field "$T/look.json" broken_planes) == 0"
 
+# Sides and lips that are alike are left to the decoder, and come out again.
+expect 0 "$B/fapenc" "$T/q.fba" -o "$T/q.fap" --quiet
+enc --quant 3 --intra 50 --derive -o "$T/d.fba"
+look "$T/d.fba"
+holds "$(field "$T/enc.json" written.derived_values) > 0 and $(stat -c %s "$T/d.fba") < $(stat -c %s "$T/q.fba")"
+holds "any(g['i_planes_of_type'][2] for g in $(field "$T/look.json" groups))"
+expect 0 "$B/fapenc" "$T/d.fba" -o "$T/d.fap" --quiet
+cmp -s <(tail -n +2 "$T/d.fap" | cut -d' ' -f1-68) <(tail -n +2 "$T/q.fap" | cut -d' ' -f1-68) || fail "derived FAPs are missing from the text"
+enc --bitrate 2 --no-derive -o "$T/n.fba"
+holds "$(field "$T/enc.json" written.derived_values) == 0"
+
 # Both inputs: a capture and an .fba.
 expect 0 "$B/fapenc" tests/assets/demo_take.c3d --markers tests/assets/demo_markers.csv --bitrate 2 -o "$T/take.fba" --json --quiet
 holds "$(field "$T/out" written.largest_2s_kbit_s) <= 2 and $(field "$T/out" written.mean_error_mm) > 0"
