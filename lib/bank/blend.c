@@ -66,7 +66,7 @@ float fap_face_row_motion(const fap_face *face, int row, const float *weight)
 
 float fap_blend_row_motion(const fap_face *face, int row, const float *weight)
 {
-    float sum = 0;
+    float sum = face->field_share * face->field_motion[row];
 
     for (int r = 0; r < face->regions.count; r++) {
         const float share = face->regions.point[r][row / 3];
@@ -79,6 +79,11 @@ float fap_blend_row_motion(const fap_face *face, int row, const float *weight)
 float fap_blend_row_target(const fap_face *face, int row)
 {
     return face->target[row / 3][row % 3] - face->fixed_motion[row];
+}
+
+float fap_blend_shortfall(const fap_face *face, int row, const float *weight)
+{
+    return face->asked[row / 3][row % 3] - face->fixed_motion[row] - fap_blend_row_motion(face, row, weight);
 }
 
 float *fap_blend_region(const fap_face *face, float *weight, int region)
@@ -104,14 +109,13 @@ float fap_blend_fitness(const fap_face *face, const float *weight)
     return fap_ga_cosine(target, got, FAP_ROWS);
 }
 
-float fap_blend_squared_error(const fap_face *face, const float *weight, int weighted)
+float fap_blend_squared_error(const fap_face *face, const float *weight)
 {
     float sum = 0;
 
     for (int r = 0; r < face->row_count; r++) {
-        const int row = face->row[r];
-        const float e = fap_blend_row_motion(face, row, weight) - fap_blend_row_target(face, row);
-        sum += (weighted ? fap_blend_importance(row) : 1) * (e * e);
+        const float e = fap_blend_shortfall(face, face->row[r], weight);
+        sum += e * e;
     }
     return sum;
 }
@@ -160,6 +164,7 @@ static void add_fixed(fap_face *face)
 void fap_face_solve(fap_face *face)
 {
     memset(face->weight, 0, sizeof *face->weight * FAP_REGION_MAX * (size_t)face->key_count);
+    face->field_share = 0;
     if (face->row_count)
         face->method->solve(face->state, face);
     else

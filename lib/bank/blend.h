@@ -32,7 +32,7 @@ void fap_face_solve(fap_face *face);
 
 /* What @p weight[key_count] does to a row. */
 float fap_face_row_motion(const fap_face *face, int row, const float *weight);
-/* The same for weights of all regions, [FAP_REGION_MAX][key_count]. */
+/* The same for weights of all regions, [FAP_REGION_MAX][key_count], and the fields of field_share. */
 float fap_blend_row_motion(const fap_face *face, int row, const float *weight);
 /* What is left of a row's target once gaze and blink have moved it. */
 float fap_blend_row_target(const fap_face *face, int row);
@@ -44,8 +44,10 @@ float *fap_blend_region(const fap_face *face, float *weight, int region);
 void fap_blend_copy_to_regions(const fap_face *face, float *weight);
 /* Mean cosine along the commanded axes alone: what nobody asked for is neither right nor wrong. */
 float fap_blend_fitness(const fap_face *face, const float *weight);
-/* Sum of squares over commanded rows, square millimetres; @p weighted: by importance. */
-float fap_blend_squared_error(const fap_face *face, const float *weight, int weighted);
+/* What @p weight leaves a commanded row short of, against what was asked, lids or not. */
+float fap_blend_shortfall(const fap_face *face, int row, const float *weight);
+/* Its square, summed over commanded rows: what stats.target_error_mm is made of. */
+float fap_blend_squared_error(const fap_face *face, const float *weight);
 /*
  * For each key, how much it moves points of a region that nobody speaks of against how much it moves commanded
  * ones, capped. Brows move the lids a little, too, but a command to the lids alone should close the eyes and

@@ -9,10 +9,11 @@
 #include <string.h>
 
 #include "bank/face.h"
+#include "bank/gauss.h"
 #include "base/mem.h"
 
 enum { ANCHORS = 24, CENTRES_MAX = FAP_POINT_COUNT + ANCHORS };
-static const double least_pivot = 1e-6; /* of the largest entry; below it two centres are one */
+static const double least_pivot = 1e-3; /* below it two centres are one */
 static const float farthest_mm = 200;   /* targets that contradict each other do not fling the skin further */
 
 typedef struct state {
@@ -206,59 +207,20 @@ static int set_equations(state *s, const fap_face *face, int axis, int *list)
     return n;
 }
 
-static void swap_rows(double *a, double *b, int n)
-{
-    for (int i = 0; i <= n; i++) {
-        const double t = a[i];
-        a[i] = b[i];
-        b[i] = t;
-    }
-}
-
-/* Gauss with partial pivoting; a centre without a pivot has no say. */
-static void eliminate(state *s, int n)
-{
-    for (int c = 0; c < n; c++) {
-        int best = c;
-        for (int i = c + 1; i < n; i++)
-            if (fabs(s->matrix[i][c]) > fabs(s->matrix[best][c]))
-                best = i;
-        swap_rows(s->matrix[c], s->matrix[best], n);
-        if (fabs(s->matrix[c][c]) < least_pivot)
-            continue;
-        for (int i = c + 1; i < n; i++) {
-            const double f = s->matrix[i][c] / s->matrix[c][c];
-            for (int k = c; k <= n && f != 0; k++)
-                s->matrix[i][k] -= f * s->matrix[c][k];
-        }
-    }
-}
-
-static void back_substitute(state *s, int n, const int *list, float *strength)
-{
-    double x[CENTRES_MAX];
-
-    for (int i = n - 1; i >= 0; i--) {
-        double sum = s->matrix[i][n];
-        for (int k = i + 1; k < n; k++)
-            sum -= s->matrix[i][k] * x[k];
-        x[i] = fabs(s->matrix[i][i]) < least_pivot ? 0 : sum / s->matrix[i][i];
-        strength[list[i]] = (float)x[i];
-    }
-}
-
 static void solve_rbf(void *user, fap_face *face)
 {
     state *s = user;
     int list[CENTRES_MAX];
+    double x[CENTRES_MAX];
 
     for (int i = 0; i < face->base_count; i++)
         face->weight[face->base_key[i]] = face->base_weight[i];
     memset(s->strength, 0, sizeof s->strength);
     for (int axis = 0; axis < 3; axis++) {
         const int n = set_equations(s, face, axis, list);
-        eliminate(s, n);
-        back_substitute(s, n, list, s->strength[axis]);
+        fap_gauss_solve(s->matrix[0], CENTRES_MAX + 1, n, least_pivot, x);
+        for (int i = 0; i < n; i++)
+            s->strength[axis][list[i]] = (float)x[i];
     }
 }
 

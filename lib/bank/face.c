@@ -110,7 +110,6 @@ static fap_err open_keys(fap_face *face)
     return FAP_OK;
 }
 
-/* The thesis's ramps between regions are straight; ours are round. */
 static fap_err open_method(fap_face *face)
 {
     const fap_blend_method *m = fap_blend_methods[face->cfg.blend];
@@ -120,7 +119,7 @@ static fap_err open_method(fap_face *face)
     face->state = m->state_size ? fap_mem_calloc(&face->alloc, 1, m->state_size) : NULL;
     if ((m->state_size && !face->state) ||
         fap_regions_open(&face->regions, face->bank, regions, face->cfg.overlap_percent / 100,
-                         m != &fap_blend_zhu, &face->alloc) ||
+                         &face->alloc) ||
         (m->open && m->open(face->state, face)))
         return FAP_E_NOMEM;
     return FAP_OK;
@@ -314,6 +313,8 @@ static void move_in_head(fap_face *face, const fap_frame *frame, float *position
         face->method->shape(face->state, face, position);
     fap_face_turn_eyes(face, frame, position);
     fap_face_clamp_teeth(face, position);
+    if (face->field_share > 0)
+        fap_face_apply_fields(face, position);
     fap_face_measure(face, position, face->point);
     face->stats.target_error_mm = error_mm(face);
     if (face->method->shape)

@@ -76,6 +76,8 @@ struct fap_face {
     float *fixed;                    /* [key_count]: gaze and blink: do not yield */
     float fixed_motion[FAP_ROWS];
     float *weight;                   /* [FAP_REGION_MAX][key_count]: the answer */
+    float field_share; /* how much of what weights leave over the residual's fields take up as part of the method */
+    float field[3][FAP_POINT_COUNT], field_motion[FAP_ROWS]; /* those fields at a share of 1 */
     float *shown;                    /* [key_count]: the mean of the regions' weights, for callers */
     float *lift;                     /* [stride]: how far each lid vertex was pushed out */
     float point[FAP_POINT_COUNT][3]; /* in head coordinates while posing, the room's afterwards */
@@ -93,8 +95,12 @@ void fap_face_take_targets(fap_face *face, const float target_mm[FAP_POINT_COUNT
 void fap_face_measure(const fap_face *face, const float *position, float point[FAP_POINT_COUNT][3]);
 /* slit of this face. */
 void fap_face_find_slits(fap_face *face);
-/* Put every commanded point where it should be; face->point must be measured. */
+/* Put every commanded point where it should be, lips and lids apart; face->point must be measured. */
 void fap_face_correct(fap_face *face, float *position);
+/* field and field_motion: what would take up all that the weights leave over. */
+void fap_face_plan_fields(fap_face *face);
+/* field_share of them. */
+void fap_face_apply_fields(const fap_face *face, float *position);
 
 fap_err fap_face_open_parts(fap_face *face);
 void fap_face_close_parts(fap_face *face);

@@ -102,6 +102,39 @@ static void solve_axis(fap_face *face, plan *p, int axis)
     fap_residual_solve(&face->residual, p->on[axis], p->error[axis], p->strength[axis]);
 }
 
+static void act(const fap_face *face, const float strength[3][FAP_POINT_COUNT], float *position)
+{
+    fap_residual_apply(&face->residual, &face->dsp, strength, position, face->mesh->stride);
+}
+
+void fap_face_plan_fields(fap_face *face)
+{
+    plan p;
+
+    memset(&p, 0, sizeof p);
+    for (int r = 0; r < face->row_count; r++) {
+        const int row = face->row[r];
+        const float way = fap_blend_row_target(face, row) - fap_blend_row_motion(face, row, face->weight);
+        const int past =
+            way * fap_blend_shortfall(face, row, face->weight) < 0; /* a lid shut tighter than shut */
+        set_goal(&p, row / 3, row % 3, past ? 0 : way);
+    }
+    for (int axis = 0; axis < 3; axis++)
+        solve_axis(face, &p, axis);
+    memcpy(face->field, p.strength, sizeof face->field);
+    for (int row = 0; row < FAP_ROWS; row++)
+        face->field_motion[row] = fap_residual_pull(&face->residual, row / 3, face->field[row % 3]);
+}
+
+void fap_face_apply_fields(const fap_face *face, float *position)
+{
+    float strength[3][FAP_POINT_COUNT];
+
+    for (int i = 0; i < FAP_ROWS; i++)
+        strength[i % 3][i / 3] = face->field_share * face->field[i % 3][i / 3];
+    act(face, (const float(*)[FAP_POINT_COUNT])strength, position);
+}
+
 void fap_face_correct(fap_face *face, float *position)
 {
     plan p;
@@ -114,6 +147,5 @@ void fap_face_correct(fap_face *face, float *position)
         solve_axis(face, &p, axis);
     if (part_slits(face, &p))
         solve_axis(face, &p, 1);
-    fap_residual_apply(&face->residual, &face->dsp, (const float(*)[FAP_POINT_COUNT])p.strength, position,
-                       face->mesh->stride);
+    act(face, (const float(*)[FAP_POINT_COUNT])p.strength, position);
 }

@@ -13,6 +13,7 @@
 const float fap_most_of_a_unit = 1.25f;
 static const float ridge_mm2 = 0.1f;     /* decides between equal answers: the smaller weights */
 static const float shut_jaw_factor = 20; /* see price_of() */
+static const double tie_mm2 = 10;        /* how dearly a region's weight leaves that of the whole face */
 static const double base_hold_mm2 = 1;   /* how dearly a viseme or expression yields to low-level FAPs */
 
 /* --- made at open --- */
@@ -123,8 +124,9 @@ int fap_least_squares_open(fap_least_squares *ls, const fap_face *face)
     ls->mover = fap_mem_calloc(alloc, n + 1, sizeof *ls->mover);
     ls->reach = fap_mem_calloc(alloc, n + 1, sizeof *ls->reach);
     ls->variable = fap_mem_calloc(alloc, n + 1, sizeof *ls->variable);
+    ls->whole = fap_mem_calloc(alloc, n + 1, sizeof *ls->whole);
     if (!ls->basis || !ls->free_key || !ls->beside || !ls->mover || !ls->reach || !ls->variable ||
-        fap_qp_open(&ls->qp, face->key_count + 1, alloc))
+        !ls->whole || fap_qp_open(&ls->qp, face->key_count + 1, alloc))
         return 1;
     make_basis(ls, face);
     find_free_keys(ls, face);
@@ -134,7 +136,8 @@ int fap_least_squares_open(fap_least_squares *ls, const fap_face *face)
 
 void fap_least_squares_close(fap_least_squares *ls, const fap_face *face)
 {
-    void *const blocks[] = { ls->basis, ls->free_key, ls->beside, ls->mover, ls->reach, ls->variable };
+    void *const blocks[] = { ls->basis, ls->free_key, ls->beside, ls->mover,
+                             ls->reach, ls->variable, ls->whole };
 
     fap_qp_close(&ls->qp, &face->alloc);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
@@ -261,11 +264,11 @@ static int list_movers(fap_least_squares *ls, const fap_face *face, int row)
     return n;
 }
 
-static void add_row(fap_least_squares *ls, const fap_face *face, int row)
+static void add_row(fap_least_squares *ls, const fap_face *face, int row, float share)
 {
     fap_qp *qp = &ls->qp;
     const int n = list_movers(ls, face, row);
-    const double weight = fap_blend_importance(row), target = fap_blend_row_target(face, row);
+    const double weight = share * fap_blend_importance(row), target = fap_blend_row_target(face, row);
 
     for (int i = 0; i < n; i++) {
         const double a = weight * ls->reach[i];
@@ -298,7 +301,33 @@ void fap_least_squares_solve(fap_least_squares *ls, const fap_face *face, float 
     set_variables(ls, face);
     add_rivals(ls);
     for (int r = 0; r < face->row_count; r++)
-        add_row(ls, face, face->row[r]);
+        add_row(ls, face, face->row[r], 1);
+    fap_qp_solve(&ls->qp);
+    memcpy(ls->whole, ls->qp.x, sizeof *ls->whole * (size_t)ls->qp.n);
+    read_answer(ls, face, weight);
+}
+
+/* Every weight is tied to the whole face's answer. */
+static void tie(fap_least_squares *ls)
+{
+    fap_qp *qp = &ls->qp;
+
+    for (size_t i = 0; i < (size_t)qp->n; i++) {
+        qp->gram[i * (size_t)qp->capacity + i] += tie_mm2;
+        qp->linear[i] += tie_mm2 * ls->whole[i];
+    }
+}
+
+void fap_least_squares_refine(fap_least_squares *ls, const fap_face *face, int region, float *weight)
+{
+    set_variables(ls, face);
+    add_rivals(ls);
+    tie(ls);
+    for (int r = 0; r < face->row_count; r++) {
+        const float share = face->regions.point[region][face->row[r] / 3];
+        if (share > 0)
+            add_row(ls, face, face->row[r], share);
+    }
     fap_qp_solve(&ls->qp);
     read_answer(ls, face, weight);
 }

@@ -29,6 +29,7 @@ typedef struct fap_least_squares {
     int *mover;       /* [key_count + 1]: work of one row, with reach */
     double *reach;
     int *variable; /* [key_count + 1]: column of each variable */
+    double *whole; /* [key_count + 1]: the last answer for the whole face, by variable */
 } fap_least_squares;
 
 /* Non-zero: no memory. Close in either case. */
@@ -36,6 +37,8 @@ int fap_least_squares_open(fap_least_squares *ls, const fap_face *face);
 void fap_least_squares_close(fap_least_squares *ls, const fap_face *face);
 /* The one minimum for this frame's rows and base. @p weight [key_count] */
 void fap_least_squares_solve(fap_least_squares *ls, const fap_face *face, float *weight);
+/* The same for one region, near the whole face's answer; only after fap_least_squares_solve() for this frame. */
+void fap_least_squares_refine(fap_least_squares *ls, const fap_face *face, int region, float *weight);
 
 /* Weights of units end here: a little beyond what was modelled. */
 extern const float fap_most_of_a_unit;

@@ -12,16 +12,15 @@
 
 /* The two ramps: 0 at one end of the intermediate strip, 1 at the other. */
 typedef struct borders {
-    int count, rounded;
+    int count;
     float middle[2], half_width[2]; /* x to the face's left, y up */
 } borders;
 
 static float ramp(const borders *b, int axis, float at)
 {
     const float half = b->half_width[axis], from = at - b->middle[axis];
-    const float t = half > 0 ? fminf(1, fmaxf(0, 0.5f + 0.5f * from / half)) : from > 0;
 
-    return b->rounded ? t * t * (3 - 2 * t) : t;
+    return half > 0 ? fminf(1, fmaxf(0, 0.5f + 0.5f * from / half)) : from > 0;
 }
 
 /* Regions: left, right; or upper left, upper right, lower left, lower right. */
@@ -81,12 +80,12 @@ static float extent(const fap_bank *bank, int axis)
     return hi > lo ? hi - lo : 0;
 }
 
-static borders find_borders(const fap_bank *bank, int count, float overlap, int rounded)
+static borders find_borders(const fap_bank *bank, int count, float overlap)
 {
     static const char *const centre[] = { "2.1", "9.3", "9.15", "9.12", NULL };
     static const char *const eyes[] = { "3.1", "3.2", "3.3", "3.4", NULL };
     static const char *const lips[] = { "2.2", "2.3", "8.1", "8.2", NULL };
-    borders b = { .count = count, .rounded = rounded };
+    borders b = { .count = count };
     float eye, mouth;
 
     mean_of(bank, centre, 0, &b.middle[0]);
@@ -148,11 +147,11 @@ static void share_point(fap_regions *r, const borders *b, const fap_bank_point *
     }
 }
 
-int fap_regions_open(fap_regions *r, const fap_bank *bank, int count, float overlap, int rounded,
+int fap_regions_open(fap_regions *r, const fap_bank *bank, int count, float overlap,
                      const fap_allocator *alloc)
 {
     const fap_mesh *mesh = fap_bank_mesh(bank);
-    const borders b = find_borders(bank, count, overlap, rounded);
+    const borders b = find_borders(bank, count, overlap);
 
     memset(r, 0, sizeof *r);
     r->count = count;

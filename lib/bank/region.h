@@ -19,10 +19,9 @@ typedef struct fap_regions {
 
 /*
  * @param overlap  share of the face's width (height) on either side of a border that both neighbours shape
- * @param rounded  1: shares rise and fall without a crease; 0: in a straight line, as in the thesis
  * @return non-zero: no memory. Close in either case.
  */
-int fap_regions_open(fap_regions *r, const fap_bank *bank, int count, float overlap, int rounded,
+int fap_regions_open(fap_regions *r, const fap_bank *bank, int count, float overlap,
                      const fap_allocator *alloc);
 void fap_regions_close(fap_regions *r, const fap_allocator *alloc);
 

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bank/gauss.h"
 #include "bank/residual.h"
 #include "base/mem.h"
 
@@ -24,14 +25,15 @@ static const char *const across[][2] = { { "2.2", "2.3" }, { "2.6", "2.8" }, { "
 static float group_radius(const fap_point_info *info)
 {
     switch (info->group) {
-    case 2: return info->index == 1 ? 34 : info->index == 10 ? 26 : 14; /* chin, chin boss, inner lips */
-    case 3: return 13;
-    case 4: return 32;
-    case 5: return 40;
+    case 2: return info->index == 1 ? 51 : info->index == 10 ? 39 : 16; /* chin, chin boss, inner lips */
+    case 3: return 15;
+    case 4: return 48;
+    case 5: return 60;
     case 6: return 25;
-    case 8: return 20;
-    case 9: return 18;
-    case 10: return 20;
+    case 8: return 28;
+    case 9: return 24;
+    case 10: return 30;
+    case 11: return 45;
     default: return 0;
     }
 }
@@ -201,59 +203,17 @@ static int list_points(fap_residual *r, const uint8_t *on, const float *error, i
     return n;
 }
 
-static void swap_rows(double *a, double *b, int n)
-{
-    for (int i = 0; i <= n; i++) {
-        const double t = a[i];
-        a[i] = b[i];
-        b[i] = t;
-    }
-}
-
-static int largest_in_column(fap_residual *r, int column, int from, int n)
-{
-    int best = from;
-
-    for (int i = from + 1; i < n; i++)
-        if (fabs(r->matrix[i][column]) > fabs(r->matrix[best][column]))
-            best = i;
-    return best;
-}
-
-/* Gauss and Jordan: n is a few dozen. Returns how many columns found a pivot; pivot_row[c] is -1 where one
- * did not. */
-static void eliminate(fap_residual *r, int n, int *pivot_row)
-{
-    int used = 0;
-
-    for (int c = 0; c < n; c++) {
-        const int best = largest_in_column(r, c, used, n);
-        pivot_row[c] = -1;
-        if (used >= n || fabs(r->matrix[best][c]) < least_pivot)
-            continue;
-        swap_rows(r->matrix[used], r->matrix[best], n);
-        for (int i = 0; i < n; i++) {
-            const double f = i == used ? 0 : r->matrix[i][c] / r->matrix[used][c];
-            for (int k = c; k <= n && f != 0; k++)
-                r->matrix[i][k] -= f * r->matrix[used][k];
-        }
-        pivot_row[c] = used++;
-    }
-}
-
 void fap_residual_solve(fap_residual *r, const uint8_t on[FAP_POINT_COUNT],
                         const float error[FAP_POINT_COUNT], float strength[FAP_POINT_COUNT])
 {
-    int list[FAP_POINT_COUNT], pivot_row[FAP_POINT_COUNT];
+    int list[FAP_POINT_COUNT];
+    double x[FAP_POINT_COUNT];
     const int n = list_points(r, on, error, list);
 
     memset(strength, 0, FAP_POINT_COUNT * sizeof *strength);
-    eliminate(r, n, pivot_row);
-    for (int c = 0; c < n; c++) {
-        const double *row = pivot_row[c] < 0 ? NULL : r->matrix[pivot_row[c]];
-        const float s = row ? (float)(row[n] / row[c]) : 0;
-        strength[list[c]] = fminf(strongest_mm, fmaxf(-strongest_mm, s));
-    }
+    fap_gauss_solve(r->matrix[0], FAP_POINT_COUNT + 1, n, least_pivot, x);
+    for (int c = 0; c < n; c++)
+        strength[list[c]] = fminf(strongest_mm, fmaxf(-strongest_mm, (float)x[c]));
 }
 
 float fap_residual_pull(const fap_residual *r, int p, const float strength[FAP_POINT_COUNT])
