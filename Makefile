@@ -55,7 +55,7 @@ COMPILE   = mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(DEFS) $(CPPFLAGS) $(CFLAGS) 
 LINK      = mkdir -p $(@D) && $(CC) $(SAN) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o %.a,$^)
 SAY       = $(if $(V),,@echo "  $(1) $@")
 
-.PHONY: all help setup face test check unit cli demo bench asan fuzz cross install clean docs format
+.PHONY: all help setup face test check unit cli demo bench asan fuzz cross coverage install clean docs format
 all: $(LIBS) $(TOOLS)
 
 # --- tables and objects --------------------------------------------------------------------------------------------
@@ -126,6 +126,18 @@ $(B)/cross-encode: $(B)/tests/cross/encode.o $(CROSS_LIB)
 	$(Q)$(LINK) -lm
 cross:             ## conformance and the encoder's bytes on other machines (qemu) and with other flags: all alike
 	$(Q)tests/cross/run
+
+# Objects of gcc's coverage build count what ran; gcovr reads them.
+coverage:          ## which lines and branches of the codec the unit and conformance tests take; every one of the decoder
+	$(Q)command -v gcovr >/dev/null || { echo "coverage: install gcovr (apt-get install gcovr)" >&2; exit 3; }
+	+$(Q)$(MAKE) --no-print-directory config=coverage CC=gcc CFLAGS="-O0 -g --coverage" LDFLAGS=--coverage \
+	    build/coverage/unit build/coverage/conformance
+	$(Q)find build/coverage -name '*.gcda' -delete
+	$(Q)build/coverage/conformance tests/conformance/fba/*.syntax tests/conformance/fba/bad/*.syntax
+	$(Q)build/coverage/unit >build/coverage/unit.log 2>&1 || { tail -n 20 build/coverage/unit.log; exit 1; }
+	$(Q)gcovr -r . --object-directory build/coverage -f lib/codec/ -f lib/param/ --json build/coverage/coverage.json \
+	    build/coverage/lib/codec build/coverage/lib/param
+	$(Q)tests/conformance/coverage.py build/coverage/coverage.json
 
 setup:             ## install the Debian packages that are missing (scripts/packages.txt)
 	$(Q)scripts/setup

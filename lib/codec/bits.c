@@ -101,6 +101,6 @@ void fap_bits_put(fap_bit_writer *w, int n, uint32_t value)
 void fap_bits_put_stuffing(fap_bit_writer *w)
 {
     fap_bits_put(w, 1, 0);
-    while (w->at % 8 && !w->full)
+    while (w->at % 8) /* inside of a byte there is room */
         fap_bits_put(w, 1, 1);
 }

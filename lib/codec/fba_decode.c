@@ -505,7 +505,7 @@ static fap_err find_plane(fap_decoder *d, uint64_t *start)
         if (code < 0)
             break;
         const fap_err err = take_code(d, code);
-        if (err != FAP_E_AGAIN || !b->data)
+        if (err != FAP_E_AGAIN)
             return err;
     }
     if (fap_fba_is_padding(b)) {

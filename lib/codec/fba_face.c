@@ -270,7 +270,7 @@ int fap_fba_swap_evidence(const fba_motion *m)
         return 0;
     if (is_odd(select1, second) || is_odd(third, intensity2))
         return 2;
-    return select1 && third && !second && !intensity2; /* two selected, none felt */
+    return select1 && third && !second; /* two selected, none felt: intensity2 is 0, or swapping were odd */
 }
 
 static void show_coded(const fba_face *face, fap_frame *f)
