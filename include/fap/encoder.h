@@ -100,6 +100,7 @@ FAP_API size_t fap_encoder_bound(const fap_encoder *encoder);
  * The next packet: an I plane and its P planes, ending on a byte boundary. All packets in a row are the
  * stream; with look_ahead 0 only where plane_codes is set, else whoever decodes must be given them one by one.
  * @param room  at least fap_encoder_bound()
+ * @param size  0 where there is nothing to send: with look_ahead 0, a frame that is left out
  * @return FAP_OK; FAP_E_AGAIN send more frames; FAP_E_END the end code was given; FAP_E_ARG
  */
 FAP_API FAP_NODISCARD fap_err fap_encoder_receive(fap_encoder *encoder, uint8_t *data, size_t room,
