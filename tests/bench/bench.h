@@ -5,6 +5,8 @@
 #ifndef TESTS_BENCH_H
 #define TESTS_BENCH_H
 
+#include <fap/frame.h>
+
 typedef struct bench_figure {
     const char *name, *unit;
     double (*measure)(void); /* negative: what it needs is not there */
@@ -57,15 +59,43 @@ double bench_loss_error_mm_20(void);
 double bench_decoder_state_bytes(void);
 double bench_libfap_text_bytes(void);
 
-/* Microseconds a pose takes by each method, and what normals add. */
-double bench_face_ga_us(void);
-double bench_face_qp_us(void);
-double bench_face_zhu_us(void);
-double bench_face_normals_us(void);
-/* Mean cosine reached on 20 mixes of three keys; the thesis's way over 10 seeds (Zhu 2006, table 3.1). */
-double bench_zhu_fitness_midpoint(void);
-double bench_zhu_fitness_line(void);
-double bench_zhu_fitness_blx(void);
-double bench_ga_fitness(void);
+/* Microseconds from FAPs to a face, by each method; with normals, on the default face and on 26,719 vertices. */
+double bench_blend_us_zhu(void);
+double bench_blend_us_zhu4(void);
+double bench_blend_us_qp(void);
+double bench_blend_us_ga(void);
+double bench_blend_us_ga4(void);
+double bench_pose_us_default(void);
+double bench_pose_us_26k(void);
+double bench_qp_us_50x60(void);
+/* Mean cosine reached on 20 mixes of three keys, over 10 seeds (Zhu 2006, table 3.1 and section 3.4.2). */
+double bench_fitness_zhu_midpoint(void);
+double bench_fitness_zhu_line(void);
+double bench_fitness_zhu_blx(void);
+double bench_fitness_zhu2(void);
+double bench_fitness_zhu4(void);
+double bench_fitness_ga(void);
+double bench_temporal_jitter_mm(void);
+double bench_pca_ccr_3(void);
+
+/* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */
+void bench_wave(fap_frame *frame, int t, int step);
+
+/* X(name, method, regions, residual): RMS in millimetres from feature points, the worst vertex, RMS from FAPs. */
+#define BENCH_FIDELITY(X)                                                                                    \
+    X(rbf, FAP_BLEND_RBF, 1, 0)                                                                              \
+    X(zhu, FAP_BLEND_ZHU, 1, 0)                                                                              \
+    X(zhu2, FAP_BLEND_ZHU, 2, 0)                                                                             \
+    X(zhu4, FAP_BLEND_ZHU, 4, 0)                                                                             \
+    X(pca, FAP_BLEND_PCA, 1, 1)                                                                              \
+    X(qp, FAP_BLEND_QP, 1, 1)                                                                                \
+    X(ga, FAP_BLEND_GA, 1, 1)                                                                                \
+    X(ga4, FAP_BLEND_GA, 4, 1)
+#define X(name, blend, regions, residual)                                                                    \
+    double bench_fidelity_mm_##name(void);                                                                   \
+    double bench_fidelity_max_mm_##name(void);                                                               \
+    double bench_fidelity_fap_mm_##name(void);
+BENCH_FIDELITY(X)
+#undef X
 
 #endif

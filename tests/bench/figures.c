@@ -4,6 +4,10 @@
 
 #include "bench.h"
 
+static const char faces[] = "../shared/data/faces/ict";
+static const char held_out[] =
+    "RMS, 20 held-out mixes of six shapes, half of them with one the bank lacks; face 190 mm high";
+
 const bench_figure bench_figures[] = {
     { "encode_x_realtime", "x", bench_encode_x_realtime,
       "tests/assets/demo_take.c3d: 56 markers at 120 Hz, read and encoded at 25",
@@ -45,14 +49,40 @@ const bench_figure bench_figures[] = {
       "allocated by fap_decoder_open() with default options; at most 65536", "memory" },
     { "libfap_text_bytes", "bytes", bench_libfap_text_bytes,
       "the decoder alone, -Os, code and constants, by a partial link from decoder.h's functions", "ld" },
-    { "pose_ga_us", "us", bench_face_ga_us, "66 FAPs moving, default face, without normals", "a face" },
-    { "pose_qp_us", "us", bench_face_qp_us, "the same by least squares alone", "a face" },
-    { "pose_zhu_us", "us", bench_face_zhu_us, "the same by the thesis's GA", "a face" },
-    { "pose_normals_us", "us", bench_face_normals_us, "vertex normals on top", "a face" },
-    { "zhu_fitness_midpoint", "cosine", bench_zhu_fitness_midpoint,
-      "20 unseen mixes of keys x 10 seeds; Zhu 2006 has 0.960 on scans", "a face" },
-    { "zhu_fitness_line", "cosine", bench_zhu_fitness_line, "the same; 0.970 there", "a face" },
-    { "zhu_fitness_blx", "cosine", bench_zhu_fitness_blx, "the same; 0.962 there", "a face" },
-    { "ga_fitness", "cosine", bench_ga_fitness, "the same by the default method", "a face" },
+#define X(name, blend, regions, residual)                                                                    \
+    { "fidelity_mm_" #name, "mm", bench_fidelity_mm_##name, held_out, faces },                               \
+        { "fidelity_max_mm_" #name, "mm", bench_fidelity_max_mm_##name, "the farthest vertex of all",        \
+          faces },                                                                                           \
+        { "fidelity_fap_mm_" #name, "mm", bench_fidelity_fap_mm_##name, "RMS, the same faces from FAPs",     \
+          faces },
+    BENCH_FIDELITY(X)
+#undef X
+        { "fitness_zhu_midpoint", "cosine", bench_fitness_zhu_midpoint,
+          "20 unseen mixes of three keys x 10 seeds, all feature points; Zhu 2006 has 0.960 on scans",
+          "a face" },
+    { "fitness_zhu_line", "cosine", bench_fitness_zhu_line, "the same; 0.970 there", "a face" },
+    { "fitness_zhu_blx", "cosine", bench_fitness_zhu_blx, "the same; 0.962 there", "a face" },
+    { "fitness_zhu2", "cosine", bench_fitness_zhu2, "left and right; 0.960 -> 0.972 there", "a face" },
+    { "fitness_zhu4", "cosine", bench_fitness_zhu4, "four regions; 0.981 there", "a face" },
+    { "fitness_ga", "cosine", bench_fitness_ga, "the same by the default method", "a face" },
+    { "blend_us_zhu", "us", bench_blend_us_zhu, "66 FAPs moving to a surface, default face, no normals",
+      "a face" },
+    { "blend_us_zhu4", "us", bench_blend_us_zhu4, "the same, four regions", "a face" },
+    { "blend_us_ga", "us", bench_blend_us_ga, "the same by the default method", "a face" },
+    { "blend_us_ga4", "us", bench_blend_us_ga4, "the same, four regions", "a face" },
+    { "blend_us_qp", "us", bench_blend_us_qp, "the same by least squares alone", "a face" },
+    { "qp_us_50x60", "us", bench_qp_us_50x60,
+      "50 weights within 0 to 1, 180 rows, inner products made once; slope at the answer within 1e-6; at "
+      "most 50",
+      "an exact answer" },
+    { "pose_us_26k", "us", bench_pose_us_26k,
+      "66 FAPs moving, default method, normals, 26,719 vertices of ICT-FaceKit; at most 200", faces },
+    { "pose_us_default", "us", bench_pose_us_default, "the same on the default face", "a face" },
+    { "temporal_jitter_mm", "mm", bench_temporal_jitter_mm,
+      "RMS from frame to frame over the default face, noise of 0.1 mm RMS on every axis of every point",
+      "a face" },
+    { "pca_ccr_3", "share", bench_pca_ccr_3,
+      "of the variance of the six expressions in three components; Yano et al. have 0.956 for six visemes",
+      "a face" },
     { NULL, NULL, NULL, NULL, NULL },
 };
