@@ -9,7 +9,8 @@
  * - FAP_ENCODE_QUANT: every value that is shown is within half a step of the quantiser, and exact with quant 0. What no
  *   plane can carry (I planes reach 1860 levels from 0, P planes 1860 levels from where they are, both divided by
  *   fap_quant) is clipped, counted, and caught up with by the planes that follow; nothing wraps. Visemes and
- *   expressions are sent to the letter, their strengths within half a step.
+ *   expressions are sent to the letter, their strengths within half a step; but the second intensity is sent as 0
+ *   where there is no second expression and a decoder could take the slots for swapped (docs/codec.md).
  * - FAP_ENCODE_BITRATE: the bits of all planes shown in any half-open 2 seconds of media time, start codes, stuffing,
  *   headers and end code included, are at most 2 * bitrate_bps. Frames are left out where it cannot be otherwise, at
  *   the very end too; FAPs of least effect are not sent at all where an I plane would take more than 3/4 of a window.

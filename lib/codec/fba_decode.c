@@ -22,7 +22,6 @@ enum {
     STATE_MAX = 64 * 1024, /* bytes of a decoder with default options */
     DCT_FRAMES = 16,       /* frames of one plane of DCT segments */
     BOUND_MAX = FBA_BOUND_MAX * FBA_BOUND_UNIT,
-    SURE = 8, /* frames whose expressions make more sense swapped */
 };
 
 #define DEVIATIONS(X)                                                                                        \
@@ -59,7 +58,7 @@ struct fap_decoder {
     int unit_lost;              /* send() was told that there is no unit */
     int waits;                  /* for an I plane, and what comes until then is concealed */
     int silent_bound;           /* the bound of an encoder that does not say it, once recognised */
-    int swap_doubt;             /* frames that speak for swapped expressions; -1: none are */
+    int swap;                   /* 1: slots of expressions are swapped; -1: they are not; 0: nothing told */
     fap_err late;               /* an error to be told after the frame that was saved */
 
     fba_face face;
@@ -175,16 +174,14 @@ static fap_err read_face(fap_decoder *d, fba_face *copy, const fba_header *h)
     return err == FAP_OK ? err : fail(d, err, r.at, r.what, r.why);
 }
 
-/* Once is an accident: expressions may be selected before they are felt. */
+/* A strength that can be no selection settles it for the whole stream. */
 static fap_err recognise_swap(fap_decoder *d, const fba_motion *m)
 {
     const int evidence = fap_fba_swap_evidence(m);
 
-    if (evidence < 0)
-        d->swap_doubt = -1;
-    else if (d->swap_doubt >= 0 && d->swap_doubt < SURE)
-        d->swap_doubt += evidence > 1 ? SURE : evidence;
-    return d->swap_doubt >= SURE ? note(d, DEV_SWAPPED) : FAP_OK;
+    if (evidence && d->swap >= 0)
+        d->swap = evidence;
+    return d->swap > 0 ? note(d, DEV_SWAPPED) : FAP_OK;
 }
 
 static fap_err read_body(fap_decoder *d, int intra)
@@ -208,7 +205,7 @@ static void keep_face(fap_decoder *d, const fba_face *copy, int intra)
         d->face = *copy;
     else
         d->face.motion = copy->motion;
-    d->face.swapped = d->swap_doubt >= SURE;
+    d->face.swapped = d->swap > 0;
     d->face_ready = 1;
 }
 
@@ -427,7 +424,7 @@ static fap_err read_plane(fap_decoder *d, uint64_t start, fap_frame *out)
 static void begin_object(fap_decoder *d)
 {
     d->face_ready = d->body_ready = d->lost = d->segments = d->waits = 0;
-    d->face.has_ranges = d->silent_bound = d->face.swapped = d->swap_doubt = 0;
+    d->face.has_ranges = d->silent_bound = d->face.swapped = d->swap = 0;
     fap_fba_body_init(&d->body);
 }
 

@@ -191,7 +191,7 @@ TEST(fba_deviation, the_standards_ranges_are_not_mistaken)
     }
 }
 
-/* --- expressions --- */
+/* --- expressions; streams that swap them are in tests/conformance --- */
 
 static size_t encode_expressions(uint8_t *data, size_t room, const fap_expression *e, int count)
 {
@@ -216,32 +216,6 @@ static size_t encode_expressions(uint8_t *data, size_t room, const fap_expressio
     free(packet);
     fap_encoder_close(&enc);
     return size;
-}
-
-TEST(fba_deviation, swapped_expressions_are_put_right)
-{
-    /* what the encoder meant: the second expression alone, at 40; slots: select1, select2, intensity1, intensity2 */
-    const fap_expression coded[3] = { { 0, 1, 0, 40, 0, 0 }, { 0, 1, 0, 41, 0, 0 }, { 2, 1, 5, 42, 0, 0 } };
-    stream s;
-    notices n;
-    fap_frame f;
-
-    const size_t size = encode_expressions(s.data, sizeof s.data, coded, 3);
-    fap_decoder *d = decode(&s, size, 0, &n);
-    for (int i = 0; i < 3; i++) {
-        assert_int_equal(fap_decoder_receive(d, &f), FAP_OK);
-        assert_int_equal(f.expression.select1, coded[i].select1);
-        assert_int_equal(f.expression.intensity1, coded[i].select2);
-        assert_int_equal(f.expression.select2, coded[i].intensity1);
-        assert_int_equal(f.expression.intensity2, coded[i].intensity2);
-    }
-    check_end(d);
-    assert_int_equal(n.count, 1);
-    assert_non_null(strstr(n.text[0], "swapped"));
-    d = decode(&s, size, 1, &n);
-    assert_int_equal(fap_decoder_receive(d, &f), FAP_E_BITSTREAM);
-    assert_non_null(strstr(fap_decoder_last_error(d), "swapped"));
-    fap_decoder_close(&d);
 }
 
 /* Expressions that come and go, two at a time, some of them selected before they are felt. */

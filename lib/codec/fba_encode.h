@@ -61,7 +61,6 @@ struct fap_encoder {
     model_node *node;
     int in_group;                     /* P planes may follow */
     int since_intra;                  /* frames of the group so far */
-    int beyond_doubt;                 /* no decoder will think that expressions are swapped */
     int clipped_planes;               /* in a row, within the group */
     uint8_t group_set[FAP_COUNT + 1]; /* what the group carries, coded or derived */
     int64_t last_coded;               /* frame number, -1: none */

@@ -253,24 +253,14 @@ static fap_expression expression_of(const fba_motion *m, int swapped)
                              m->expression_def };
 }
 
-/* An intensity of nothing. */
-static int is_odd(int32_t select, int32_t intensity)
-{
-    return !select && intensity;
-}
-
 int fap_fba_swap_evidence(const fba_motion *m)
 {
     const int32_t *v = &m->value[FBA_EXPRESSION_SELECT1];
-    const int32_t select1 = v[0], second = v[1], third = v[2], intensity2 = v[3];
+    const int32_t second = v[1], third = v[2], intensity2 = v[3];
 
     if (second < 0 || second > FAP_EXPRESSION_COUNT)
         return -1; /* no selection */
-    if (is_odd(select1, third) || is_odd(second, intensity2))
-        return 0;
-    if (is_odd(select1, second) || is_odd(third, intensity2))
-        return 2;
-    return select1 && third && !second; /* two selected, none felt: intensity2 is 0, or swapping were odd */
+    return second && !third && intensity2;
 }
 
 static void show_coded(const fba_face *face, fap_frame *f)

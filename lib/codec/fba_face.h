@@ -46,8 +46,8 @@ typedef struct fba_face_reader {
 fap_err fap_fba_face_set_up(fba_face_reader *r, fba_face *face);
 fap_err fap_fba_face_move(fba_face_reader *r, const fba_coded_list *list, fba_motion *motion, int intra);
 /*
- * What the expression slots of a plane say about their order: 2 only swapped do they make sense, 1 swapped they make more
- * sense, 0 nothing, -1 they cannot be swapped.
+ * What the expression slots of a plane say about their order. 1: swapped; as they stand the second intensity is that of
+ * nothing, and swapped it has an expression. 0: nothing. -1: not swapped; the first intensity can be no selection.
  */
 int fap_fba_swap_evidence(const fba_motion *m);
 /* The face in a frame: coded FAPs, and those that the stream leaves to the decoder, by @p fit (or NULL) first.

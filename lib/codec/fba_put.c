@@ -43,9 +43,8 @@ static void clear_param(const fap_encoder *e, plane_levels *l, int param)
 }
 
 /*
- * Decoders tell an encoder that swaps the slots of expressions by intensities of nothing and by expressions that
- * nobody feels. Neither is seen, so neither is sent, until an intensity that can be no selection has been. A fixed
- * quantiser keeps to the letter of the source.
+ * Decoders tell an encoder that swaps the slots of expressions by a second intensity of nothing. Nobody sees that, so it
+ * is not sent where it would be taken for one.
  */
 static void avoid_doubt(const fap_encoder *e, plane_levels *l)
 {
@@ -55,14 +54,8 @@ static void avoid_doubt(const fap_encoder *e, plane_levels *l)
         const fba_coded *c = &l->list->of[k];
         m.value[c->param] = ((l->kind == FBA_I ? 0 : e->at[c->param]) + l->level[k]) * c->step;
     }
-    if (fap_fba_swap_evidence(&m) <= 0)
-        return;
-    if (!m.value[FBA_EXPRESSION_SELECT1])
-        clear_param(e, l, FBA_EXPRESSION_INTENSITY1);
-    if (!m.value[FBA_EXPRESSION_SELECT2])
+    if (fap_fba_swap_evidence(&m) > 0)
         clear_param(e, l, FBA_EXPRESSION_INTENSITY2);
-    if (!m.value[FBA_EXPRESSION_INTENSITY1] && !m.value[FBA_EXPRESSION_INTENSITY2])
-        clear_param(e, l, FBA_EXPRESSION_SELECT2);
 }
 
 /* With a fixed quantiser: farther than half a step, since no plane could carry more. */
@@ -207,7 +200,7 @@ static put_result put_frame(fap_encoder *e, fap_bit_writer *w, const fba_queued 
     describe(e, q, intra, &p);
     follow_path(e, path, &l);
     const int has_expression = (intra ? &e->plan : &e->face.setup)->coded[2];
-    if (e->search && has_expression && !e->beyond_doubt)
+    if (has_expression)
         avoid_doubt(e, &l);
     const put_result r =
         e->window.limit == INT64_MAX ? put_unlimited(e, w, &p, &l) : put_within(e, w, &p, &l, q);
@@ -217,7 +210,6 @@ static put_result put_frame(fap_encoder *e, fap_bit_writer *w, const fba_queued 
     if (intra)
         begin_group(e);
     take_levels(e, q, path, &l);
-    e->beyond_doubt |= has_expression && fap_fba_swap_evidence(&e->face.motion) < 0;
     e->face.motion.viseme_def = p.viseme_def;
     e->face.motion.init_face = p.init_face;
     e->face.motion.expression_def = p.expression_def;

@@ -676,6 +676,8 @@ static void next_frame(take *t, fap_frame *f, int i)
         (fap_viseme){ draw(&t->seed) % 15, draw(&t->seed) % 15, draw(&t->seed) % 64, draw(&t->seed) % 2 };
     f->expression = (fap_expression){ draw(&t->seed) % 7,  draw(&t->seed) % 64, draw(&t->seed) % 7,
                                       draw(&t->seed) % 64, draw(&t->seed) % 2,  draw(&t->seed) % 2 };
+    if (!f->expression.select2) /* an intensity of nothing need not be sent */
+        f->expression.intensity2 = 0;
     f->number = i < t->count / 2 ? i : i + 20; /* a gap */
     f->pts_us = f->number * 40000;
 }

@@ -104,20 +104,13 @@ static void change_value(input *in, fap_frame *f)
         f->value[fap] = (int32_t)((uint32_t)f->value[fap] + (uint32_t)(word(in) % 2000));
 }
 
-/* Weaker ones, or intensities of nothing, make a decoder think of an encoder that swaps the two. */
-static uint8_t felt(input *in, unsigned select)
-{
-    const unsigned intensity = 7 + byte(in) % 57;
-    return (uint8_t)(select ? intensity : 0);
-}
-
 static void change_mixes(input *in, fap_frame *f)
 {
     f->viseme = (fap_viseme){ (uint8_t)(byte(in) % 15), (uint8_t)(byte(in) % 15), (uint8_t)(byte(in) % 64),
                               (uint8_t)(byte(in) % 2) };
-    const uint8_t first = (uint8_t)(byte(in) % 7), second = (uint8_t)(byte(in) % 7);
     f->expression =
-        (fap_expression){ first, felt(in, first), second, felt(in, second), byte(in) & 1, byte(in) & 1 };
+        (fap_expression){ (uint8_t)(byte(in) % 7),  (uint8_t)(byte(in) % 64), (uint8_t)(byte(in) % 7),
+                          (uint8_t)(byte(in) % 64), (uint8_t)(byte(in) & 1),  (uint8_t)(byte(in) & 1) };
 }
 
 static void change_frame(input *in, fap_frame *f, double rate_hz)
