@@ -408,6 +408,20 @@ TEST(encoder, a_talking_head_is_well_shown_at_2_kbit_a_second)
     assert_in_range(got.stats.largest_window_bits, 2000, 4000);
 }
 
+TEST(encoder, live_a_talking_head_is_still_shown)
+{
+    fap_encoder_config cfg = config(FAP_ENCODE_BITRATE);
+
+    load(&given, "metaface_th-example-plain.fap");
+    cfg.look_ahead = 0;
+    for (cfg.bitrate_bps = 1000; cfg.bitrate_bps <= 4000; cfg.bitrate_bps *= 2) {
+        encode(&given, &cfg);
+        assert_in_range(fullest_window(given.rate_hz), 0, 2 * cfg.bitrate_bps);
+        assert_true(got.planes > given.count / 4);
+        assert_true(got.stats.mean_error_mm < 1.5);
+    }
+}
+
 /* --- FAP_ENCODE_ERROR --- */
 
 static void all_within(double mm)

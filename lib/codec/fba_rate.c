@@ -90,7 +90,9 @@ uint32_t fap_fba_overhead(const fap_encoder *e, int i, int intra)
 /* What a frame behind the run may be expected to take: the mean, but for the next I plane. */
 static int64_t future_bits(const fap_encoder *e, int ahead, int to_intra)
 {
-    const int64_t all = window_bits(e), most = all - all / 4;
+    const int is_live =
+        e->capacity < e->cfg.intra; /* models that are to be cheap must learn first: half the mean */
+    const int64_t all = window_bits(e) / (is_live ? 2 : 1), most = all - all / 4;
     const int64_t next = e->search->intra_bits < most ? e->search->intra_bits : most;
 
     if (to_intra >= e->window.frames)

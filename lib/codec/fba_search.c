@@ -687,13 +687,27 @@ static void leave_out_exact(fap_encoder *e, int count)
     fap_fba_list_coded(&e->plan_list, &e->plan);
 }
 
+/* Live, one frame says little: by the bits that there are for a symbol. */
+static void guess_quant(fap_encoder *e)
+{
+    static const uint8_t by_bits[] = { 30, 20, 12, 8, 5, 3, 2 };
+    const int64_t symbols = e->plan_list.count ? e->plan_list.count : 1;
+    const int64_t bits = fap_fba_allowance(e, 1, 1) / symbols, last = sizeof by_bits - 1;
+
+    e->plan.quant = bits > last ? 1 : by_bits[bits < 0 ? 0 : bits];
+    e->search->quant = e->plan.quant;
+}
+
 static void search_bitrate(fap_encoder *e, int count, int intra)
 {
     const int derives = intra && e->cfg.derive && e->capacity >= e->cfg.intra;
 
     if (derives)
         leave_out_exact(e, count);
-    if (intra)
+    const int is_live = e->capacity < e->cfg.intra && count < e->window.frames;
+    if (intra && is_live)
+        guess_quant(e);
+    if (intra && !is_live)
         find_quant(e, count);
     else
         find_level(e, count, intra, count > 1 ? SEARCH_OCTAVE : SEARCH_OCTAVE / 4);
