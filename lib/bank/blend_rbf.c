@@ -188,21 +188,42 @@ static void close_rbf(void *user, const fap_face *face)
 
 /* --- this frame --- */
 
+/*
+ * Eyes, brows, nose, ears and hair line stay where they are when nobody speaks of them; lips, chin and cheeks go along.
+ * Without that a jaw let down alone drew the lids down with it.
+ */
+static int stays(const fap_face *face, int p)
+{
+    const int group = fap_point_get(p)->group;
+    const uint8_t *w = face->wanted[p];
+
+    return !w[0] && !w[1] && !w[2] && group != 2 && group != 5 && group != 8;
+}
+
+/* Where a centre has to go along an axis. */
+static float way_of(const state *s, const fap_face *face, int c, int axis)
+{
+    const int point = c < s->point_count ? s->point[c] : -1, row = 3 * point + axis;
+
+    if (point < 0 || !face->wanted[point][axis])
+        return 0;
+    return fap_blend_row_target(face, row) - fap_face_row_motion(face, row, face->weight);
+}
+
 /* Eq. 4.4 along one axis: commanded points where they should go, anchors where they are. */
 static int set_equations(state *s, const fap_face *face, int axis, int *list)
 {
     int n = 0;
 
     for (int c = 0; c < s->count; c++)
-        if (c >= s->point_count || face->wanted[s->point[c]][axis])
+        if (c >= s->point_count || face->wanted[s->point[c]][axis] || stays(face, s->point[c]))
             list[n++] = c;
     for (int i = 0; i < n; i++) {
-        const int is_anchor = list[i] >= s->point_count, row = is_anchor ? 0 : 3 * s->point[list[i]] + axis;
-        const float *pull = is_anchor ? s->anchor_pull[list[i] - s->point_count] : s->pull[list[i]];
+        const float *pull =
+            list[i] >= s->point_count ? s->anchor_pull[list[i] - s->point_count] : s->pull[list[i]];
         for (int j = 0; j < n; j++)
             s->matrix[i][j] = pull[list[j]];
-        s->matrix[i][n] =
-            is_anchor ? 0 : fap_blend_row_target(face, row) - fap_face_row_motion(face, row, face->weight);
+        s->matrix[i][n] = way_of(s, face, list[i], axis);
     }
     return n;
 }

@@ -98,21 +98,36 @@ static float dot3(const float *a, const float *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-float fap_ga_cosine(const float *target, const float *candidate, int size)
+/* Mean cosine, the lengths of the target's vectors known. */
+static float cosine(const float *target, const float *length, const float *candidate, int size)
 {
     float sum = 0;
     int moving = 0;
 
     for (int i = 0; i + 2 < size; i += 3) {
-        const float wanted = sqrtf(dot3(target + i, target + i)),
-                    got = sqrtf(dot3(candidate + i, candidate + i));
+        const float wanted = length[i / 3];
         if (wanted <= tiny)
             continue;
+        const float got = sqrtf(dot3(candidate + i, candidate + i));
         moving++;
         if (got > tiny) /* a point that stays where it should move has no angle: it earns nothing */
             sum += dot3(target + i, candidate + i) / (wanted * got);
     }
     return moving ? sum / (float)moving : 1;
+}
+
+static void measure_lengths(const float *target, int size, float *length)
+{
+    for (int i = 0; i + 2 < size; i += 3)
+        length[i / 3] = sqrtf(dot3(target + i, target + i));
+}
+
+float fap_ga_cosine(const float *target, const float *candidate, int size)
+{
+    float length[FAP_POINT_COUNT];
+
+    measure_lengths(target, size, length);
+    return cosine(target, length, candidate, size);
 }
 
 static float squared_error(const fap_ga_task *task, const float *candidate)
@@ -126,27 +141,27 @@ static float squared_error(const fap_ga_task *task, const float *candidate)
     return sum;
 }
 
-static float rate(const fap_ga_task *task, const float *candidate)
+static float rate(const fap_ga *ga, const fap_ga_task *task, const float *candidate)
 {
-    return task->cosine ? fap_ga_cosine(task->target, candidate, task->size)
+    return task->cosine ? cosine(task->target, ga->length, candidate, task->size)
                         : -squared_error(task, candidate);
 }
 
-static float summed_length(const fap_ga_task *task, const float *vector)
+static float summed_length(const fap_ga *ga, const fap_ga_task *task, const float *vector)
 {
     float sum = 0;
 
     for (int i = 0; i + 2 < task->size; i += 3)
-        if (dot3(task->target + i, task->target + i) > tiny * tiny)
+        if (ga->length[i / 3] > tiny)
             sum += sqrtf(dot3(vector + i, vector + i));
     return sum;
 }
 
 /* Section 3.2: the ratio of the summed lengths of target and candidate. */
-static float length_ratio(const fap_ga_task *task, const float *vector)
+static float length_ratio(const fap_ga *ga, const fap_ga_task *task, const float *vector)
 {
-    const float own = summed_length(task, vector);
-    return own > tiny ? summed_length(task, task->target) / own : 1;
+    const float own = summed_length(ga, task, vector);
+    return own > tiny ? ga->target_length / own : 1;
 }
 
 /* The scale with the least error that keeps every gene in its range. */
@@ -168,7 +183,7 @@ static float best_scale(const fap_ga *ga, const fap_ga_task *task, int i)
 static void scale_individual(const fap_ga *ga, const fap_ga_task *task, int i)
 {
     float *v = vector_of(ga, i), *gene = gene_of(ga, i);
-    const float scale = task->cosine ? length_ratio(task, v) : best_scale(ga, task, i);
+    const float scale = task->cosine ? length_ratio(ga, task, v) : best_scale(ga, task, i);
 
     for (int k = 0; k < task->size; k++)
         v[k] *= scale;
@@ -246,7 +261,7 @@ static void generation(fap_ga *ga, const fap_ga_task *task, rng *r)
     if (!allowed(ga, task, child))
         return;
     scale_individual(ga, task, child);
-    ga->score[child] = rate(task, vector_of(ga, child));
+    ga->score[child] = rate(ga, task, vector_of(ga, child));
     copy_individual(ga, pick[2], child);
     keep_if_best(ga, child);
 }
@@ -259,9 +274,13 @@ const float *fap_ga_run(fap_ga *ga, const fap_ga_task *task, float *score)
     if (!ga->count)
         return NULL;
     seed_rng(&r, task->seed);
+    if (task->cosine) {
+        measure_lengths(task->target, task->size, ga->length);
+        ga->target_length = summed_length(ga, task, task->target);
+    }
     ga->score[best] = -INFINITY;
     for (int i = 0; i < ga->count; i++) {
-        ga->score[i] = rate(task, vector_of(ga, i));
+        ga->score[i] = rate(ga, task, vector_of(ga, i));
         keep_if_best(ga, i);
     }
     for (int g = 0; g < task->generations && ga->count >= 3; g++)

@@ -32,6 +32,7 @@ struct fap_ga {
     int size_max, gene_count;
     float *vector, *gene; /* [capacity + 2][...]: the population, then the best so far, then the child */
     float *score;
+    float length[FAP_POINT_COUNT], target_length; /* of the target's vectors, each and summed */
     void *block;
 };
 
@@ -46,7 +47,7 @@ int fap_ga_add(fap_ga *ga, float **vector, float **gene);
 /* Runs the generations. The best individual ever, or NULL for an empty population; its score. */
 const float *fap_ga_run(fap_ga *ga, const fap_ga_task *task, float *score);
 /* Mean cosine over the points whose target moves (eq. 3.2, 3.3); 1 when none does. @p size floats, xyz by
- * xyz. */
+ * xyz, at most 3 * FAP_POINT_COUNT. */
 float fap_ga_cosine(const float *target, const float *candidate, int size);
 
 #endif

@@ -201,7 +201,6 @@ static void set_variables(fap_least_squares *ls, const fap_face *face)
 {
     const int close = face->known.mouth_close;
 
-    fap_blend_beside(face, -1, ls->basis, (size_t)face->key_count + 1, ls->beside);
     fap_qp_clear(&ls->qp, ls->qp.capacity);
     ls->qp.n = 0;
     for (int k = 0; k < face->key_count; k++)
@@ -298,6 +297,7 @@ static void read_answer(const fap_least_squares *ls, const fap_face *face, float
 
 void fap_least_squares_solve(fap_least_squares *ls, const fap_face *face, float *weight)
 {
+    fap_blend_beside(face, -1, ls->basis, (size_t)face->key_count + 1, ls->beside);
     set_variables(ls, face);
     add_rivals(ls);
     for (int r = 0; r < face->row_count; r++)
