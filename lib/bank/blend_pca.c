@@ -16,6 +16,8 @@ static const double enough = 0.995; /* of the variance; what is left is more noi
 static const double most = 3;       /* standard deviations, eq. 2 */
 static const double lean_mm2 = 0.3; /* price of a standard deviation that nobody asked for */
 
+enum { MOST_MODELS = 128 };
+
 typedef struct state {
     fap_pca pca;
     fap_qp qp;
@@ -25,17 +27,17 @@ typedef struct state {
     double *lean; /* [count]: where this frame's coefficients lean to */
 } state;
 
-/* A bank without visemes and expressions offers all its keys. */
+/* A bank without visemes and expressions offers all its keys. The work grows with the cube of their number. */
 static int list_models(const fap_face *face, int *key)
 {
-    int n = 0;
+    int population = 0, n = 0;
 
     for (int k = 0; k < face->key_count; k++)
-        if (face->population[k])
+        population += face->population[k];
+    for (int k = 0; k < face->key_count && n < MOST_MODELS; k++)
+        if (face->population[k] || !population)
             key[n++] = k;
-    for (int k = 0; k < face->key_count && !n; k++)
-        key[k] = k;
-    return n ? n : face->key_count;
+    return n;
 }
 
 static int open_components(state *s, const fap_face *face)

@@ -37,7 +37,8 @@ int fap_normals_open(fap_normals *n, const fap_graph *graph, const fap_mesh *mes
     n->index = fap_mem_calloc(alloc, 3 * (size_t)mesh->triangle_count, sizeof *n->index);
     n->copy = fap_mem_calloc(alloc, mesh->vertex_count, sizeof *n->copy);
     n->triangle = fap_mem_calloc(alloc, mesh->triangle_count, sizeof *n->triangle);
-    if (!n->start || !n->index || !n->copy || !n->triangle)
+    n->place = fap_mem_calloc(alloc, mesh->stride, sizeof *n->place);
+    if (!n->start || !n->index || !n->copy || !n->triangle || !n->place)
         return 1;
     list_round(n, graph, mesh);
     list_copies(n, graph, mesh->vertex_count);
@@ -50,13 +51,15 @@ void fap_normals_close(fap_normals *n, const fap_allocator *alloc)
     fap_mem_free(alloc, n->index);
     fap_mem_free(alloc, n->copy);
     fap_mem_free(alloc, n->triangle);
+    fap_mem_free(alloc, n->place);
     memset(n, 0, sizeof *n);
 }
 
 void fap_normals_compute(const fap_normals *n, const fap_dsp *dsp, const fap_mesh *mesh,
                          const float *position, float *normal)
 {
-    dsp->triangle_normals(n->triangle, position, mesh->stride, mesh->triangle, mesh->triangle_count);
+    dsp->interleave(n->place, position, mesh->stride, mesh->stride);
+    dsp->triangle_normals(n->triangle, (const float(*)[4])n->place, mesh->triangle, mesh->triangle_count);
     dsp->sum_normals(normal, mesh->stride, (const float(*)[4])n->triangle, n->start, n->index,
                      mesh->vertex_count);
     for (int axis = 0; axis < 3; axis++) /* padding is nobody's */

@@ -10,7 +10,7 @@ typedef struct fap_normals {
     uint32_t *start, *index; /* triangles round each welded vertex */
     uint32_t (*copy)[2];     /* to, from: vertices that take the normal of the one they are welded to */
     uint32_t copy_count;
-    float (*triangle)[4]; /* work */
+    float (*place)[4], (*triangle)[4]; /* work */
 } fap_normals;
 
 /* Non-zero: no memory. Close in either case. */

@@ -57,15 +57,22 @@ static void rotate_c(float *xyz, size_t stride, const float m[3][3], const float
     }
 }
 
-static void triangle_normals_c(float (*out)[4], const float *xyz, size_t stride, const uint32_t *triangle,
+static void interleave_c(float (*out)[4], const float *xyz, size_t stride, size_t n)
+{
+    for (size_t v = 0; v < n; v++) {
+        for (size_t axis = 0; axis < 3; axis++)
+            out[v][axis] = xyz[axis * stride + v];
+        out[v][3] = 0;
+    }
+}
+
+static void triangle_normals_c(float (*out)[4], const float (*place)[4], const uint32_t *triangle,
                                size_t count)
 {
-    const float *x = xyz, *y = xyz + stride, *z = y + stride;
-
     for (size_t t = 0; t < count; t++, triangle += 3) {
-        const uint32_t a = triangle[0], b = triangle[1], c = triangle[2];
-        const float ux = x[b] - x[a], uy = y[b] - y[a], uz = z[b] - z[a];
-        const float vx = x[c] - x[a], vy = y[c] - y[a], vz = z[c] - z[a];
+        const float *a = place[triangle[0]], *b = place[triangle[1]], *c = place[triangle[2]];
+        const float ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+        const float vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
         out[t][0] = uy * vz - uz * vy;
         out[t][1] = uz * vx - ux * vz;
         out[t][2] = ux * vy - uy * vx;
@@ -117,8 +124,8 @@ unsigned fap_cpu_detect(void)
 
 void fap_dsp_init(fap_dsp *dsp, unsigned cpu)
 {
-    *dsp = (fap_dsp){ add_key_c,          add_key_regions_c, add_field_c, rotate_c,
-                      triangle_normals_c, sum_normals_c,     normalise_c };
+    *dsp = (fap_dsp){ add_key_c,    add_key_regions_c,  add_field_c,   rotate_c,
+                      interleave_c, triangle_normals_c, sum_normals_c, normalise_c };
 #if defined(__x86_64__) && defined(__GNUC__)
     fap_dsp_init_x86(dsp, cpu);
 #elif defined(__aarch64__) && defined(__GNUC__)

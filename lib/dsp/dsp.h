@@ -24,8 +24,10 @@ typedef struct fap_dsp {
                       size_t block_count, const float c[3]);
     /* xyz = pivot + m * (xyz - pivot), for n vertices, n a multiple of 8 */
     void (*rotate)(float *xyz, size_t stride, const float m[3][3], const float pivot[3], size_t n);
+    /* out[v] = x y z 0 of each vertex; n a multiple of 8 */
+    void (*interleave)(float (*out)[4], const float *xyz, size_t stride, size_t n);
     /* out[t] = (b - a) x (c - a) of each triangle, twice its area long; out[t][3] = 0 */
-    void (*triangle_normals)(float (*out)[4], const float *xyz, size_t stride, const uint32_t *triangle,
+    void (*triangle_normals)(float (*out)[4], const float (*place)[4], const uint32_t *triangle,
                              size_t count);
     /* out[v] = sum of normals[index[i]] over start[v] <= i < start[v + 1], for count vertices */
     void (*sum_normals)(float *out, size_t stride, const float (*normals)[4], const uint32_t *start,

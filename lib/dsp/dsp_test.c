@@ -135,13 +135,14 @@ static void normals_of(const fap_dsp *dsp, const bed *b, float *out)
     enum { TRIANGLES = 30 };
     static const uint32_t start[5] = { 0, 4, 4, 9, 12 };
     uint32_t triangle[TRIANGLES * 3], index[12], seed = 9;
-    float normals[TRIANGLES][4];
+    float place[N][4], normals[TRIANGLES][4];
 
     for (int i = 0; i < TRIANGLES * 3; i++)
         triangle[i] = next(&seed) % N;
     for (int i = 0; i < 12; i++)
         index[i] = next(&seed) % TRIANGLES;
-    dsp->triangle_normals(normals, b->xyz, N, triangle, TRIANGLES);
+    dsp->interleave(place, b->xyz, N, N);
+    dsp->triangle_normals(normals, (const float(*)[4])place, triangle, TRIANGLES);
     dsp->sum_normals(out, N, (const float(*)[4])normals, start, index, 4);
     dsp->normalise(out, N, 8);
 }
