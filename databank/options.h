@@ -5,7 +5,7 @@
 
 #include "databank/sheet.h"
 
-typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER } command;
+typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER, COMMAND_FAT } command;
 
 typedef struct options {
     command command;

@@ -129,6 +129,9 @@ static void print_success(const report *rep, const options *opt)
         print_json(rep, opt, &n);
     else if (opt->command == COMMAND_INFO)
         print_text(rep, &n);
+    else if (opt->command == COMMAND_FAT && strcmp(opt->output, "-"))
+        tool_note("%s: %s, %u vertices, %zu bytes", opt->output, fap_bank_name(rep->bank),
+                  fap_bank_mesh(rep->bank)->vertex_count, rep->size);
     else if (strcmp(opt->output, "-"))
         tool_note("%s: %s, %u vertices, %d key models", opt->output, fap_bank_name(rep->bank),
                   fap_bank_mesh(rep->bank)->vertex_count, fap_bank_key_count(rep->bank));

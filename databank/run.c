@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <fap/fat.h>
+
 #include "common/file.h"
 #include "databank/import_makehuman.h"
 #include "databank/recipe.h"
@@ -65,7 +67,7 @@ static fap_err make(fap_bank_builder **out, const char *recipe, report *rep)
     return import_makehuman(out, recipe + prefix, rep->where, sizeof rep->where);
 }
 
-/* Bytes of a bank on their way to its file, and once more into memory: what was written is loaded before it
+/* Bytes of a bank or of tables on their way to its file, and once more into memory: what was written is loaded before it
  * is kept. */
 typedef struct tee {
     FILE *file;
@@ -111,6 +113,50 @@ static fap_err write_bank(fap_bank_builder *b, const options *opt, report *rep)
     return blame(rep, opt->output, err);
 }
 
+/* Tables are loaded again, too, before they are kept. */
+static fap_err check_fat(const tee *t)
+{
+    fap_fat *again;
+    const fap_err err = fap_fat_load(&again, t->data, t->size, NULL);
+
+    fap_fat_close(&again);
+    return err;
+}
+
+static fap_err write_fat(const fap_fat *fat, const options *opt, report *rep)
+{
+    out_file out;
+    fap_err err = out_file_open(&out, opt->output);
+    if (err)
+        return blame(rep, opt->output, err);
+
+    tee t = { .file = out.stream };
+    const fap_writer w = { tee_write, &t };
+    err = fap_fat_write(fat, &w);
+    if (!err)
+        err = check_fat(&t);
+    rep->size = t.size;
+    free(t.data);
+    if (!err)
+        err = out_file_commit(&out);
+    else
+        out_file_abandon(&out);
+    return blame(rep, opt->output, err);
+}
+
+static fap_err make_fat(const options *opt, report *rep)
+{
+    fap_fat *fat = NULL;
+    fap_err err = load_bank(opt->input, rep);
+
+    if (!err)
+        err = blame(rep, opt->input, fap_fat_bake(&fat, rep->bank, NULL));
+    if (!err)
+        err = write_fat(fat, opt, rep);
+    fap_fat_close(&fat);
+    return err;
+}
+
 static fap_err build(const options *opt, report *rep)
 {
     fap_bank_builder *b;
@@ -135,6 +181,7 @@ fap_err run(const options *opt, report *rep)
     case COMMAND_BUILD: return build(opt, rep);
     case COMMAND_INFO: return load_bank(opt->input, rep);
     case COMMAND_RENDER: return render(opt, rep);
+    case COMMAND_FAT: return make_fat(opt, rep);
     }
     return FAP_E_ARG;
 }

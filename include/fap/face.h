@@ -23,6 +23,7 @@ typedef enum fap_blend {
     FAP_BLEND_GA,  /**< the GA started from the least-squares solution; never worse than it in millimetres */
     FAP_BLEND_PCA, /**< principal components of the key models, coefficients within 3 standard deviations */
     FAP_BLEND_RBF, /**< no key models: a smooth field through the feature points (Hardy's multiquadrics) */
+    FAP_BLEND_FAT, /**< face animation tables baked from the key models: see fap/fat.h */
 } fap_blend;
 
 /** The method's name ("ga") and a line about it, for options and their help. NULL: no such method. */

@@ -8,8 +8,9 @@
 #include "bank/face.h"
 #include "bank/ga.h"
 
-const fap_blend_method *const fap_blend_methods[] = { &fap_blend_zhu, &fap_blend_qp,  &fap_blend_ga,
-                                                      &fap_blend_pca, &fap_blend_rbf, NULL };
+const fap_blend_method *const fap_blend_methods[] = {
+    &fap_blend_zhu, &fap_blend_qp, &fap_blend_ga, &fap_blend_pca, &fap_blend_rbf, &fap_blend_fat, NULL
+};
 
 const float fap_blend_most_beside = 300;
 

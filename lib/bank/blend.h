@@ -20,7 +20,8 @@ typedef struct fap_blend_method {
     void (*shape)(void *state, fap_face *face, float *position);
 } fap_blend_method;
 
-extern const fap_blend_method fap_blend_zhu, fap_blend_qp, fap_blend_ga, fap_blend_pca, fap_blend_rbf;
+extern const fap_blend_method fap_blend_zhu, fap_blend_qp, fap_blend_ga, fap_blend_pca, fap_blend_rbf,
+    fap_blend_fat;
 
 /* In the order of fap_blend, then NULL. */
 extern const fap_blend_method *const fap_blend_methods[];

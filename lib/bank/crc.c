@@ -8,9 +8,9 @@ static const uint32_t nibble[16] = {
     0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c, 0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c,
 };
 
-uint32_t fbank_crc32(const uint8_t *data, size_t size)
+uint32_t fbank_crc32_add(uint32_t before, const uint8_t *data, size_t size)
 {
-    uint32_t crc = 0xffffffff;
+    uint32_t crc = ~before;
 
     for (size_t i = 0; i < size; i++) {
         crc ^= data[i];
@@ -18,4 +18,9 @@ uint32_t fbank_crc32(const uint8_t *data, size_t size)
         crc = crc >> 4 ^ nibble[crc & 15];
     }
     return ~crc;
+}
+
+uint32_t fbank_crc32(const uint8_t *data, size_t size)
+{
+    return fbank_crc32_add(0, data, size);
 }

@@ -30,5 +30,7 @@ enum {
 
 /* CRC-32 as in zip and PNG. */
 uint32_t fbank_crc32(const uint8_t *data, size_t size);
+/* The same over more bytes: @p before is that of those in front of them, 0 when there are none. */
+uint32_t fbank_crc32_add(uint32_t before, const uint8_t *data, size_t size);
 
 #endif

@@ -68,6 +68,9 @@ double bench_blend_us_ga4(void);
 double bench_pose_us_default(void);
 double bench_pose_us_26k(void);
 double bench_qp_us_50x60(void);
+/* Face animation tables: mean distance from the solver, and a pose. */
+double bench_fat_mm(void);
+double bench_fat_us(void);
 /* Mean cosine reached on 20 mixes of three keys, over 10 seeds (Zhu 2006, table 3.1 and section 3.4.2). */
 double bench_fitness_zhu_midpoint(void);
 double bench_fitness_zhu_line(void);
@@ -90,7 +93,8 @@ void bench_wave(fap_frame *frame, int t, int step);
     X(pca, FAP_BLEND_PCA, 1, 1)                                                                              \
     X(qp, FAP_BLEND_QP, 1, 1)                                                                                \
     X(ga, FAP_BLEND_GA, 1, 1)                                                                                \
-    X(ga4, FAP_BLEND_GA, 4, 1)
+    X(ga4, FAP_BLEND_GA, 4, 1)                                                                               \
+    X(fat, FAP_BLEND_FAT, 1, 1)
 #define X(name, blend, regions, residual)                                                                    \
     double bench_fidelity_mm_##name(void);                                                                   \
     double bench_fidelity_max_mm_##name(void);                                                               \

@@ -71,6 +71,10 @@ const bench_figure bench_figures[] = {
     { "blend_us_ga", "us", bench_blend_us_ga, "the same by the default method", "a face" },
     { "blend_us_ga4", "us", bench_blend_us_ga4, "the same, four regions", "a face" },
     { "blend_us_qp", "us", bench_blend_us_qp, "the same by least squares alone", "a face" },
+    { "fat_us", "us", bench_fat_us, "the same by face animation tables alone", "a face" },
+    { "fat_mm", "mm", bench_fat_mm,
+      "these tables against least squares, 100 mixes of four units, all FAPs; mean of the vertices that move",
+      "a face" },
     { "qp_us_50x60", "us", bench_qp_us_50x60,
       "50 weights within 0 to 1, 180 rows, inner products made once; slope at the answer within 1e-6; at "
       "most 50",

@@ -28,6 +28,17 @@ expect 1 "$B/fapbank" build builtin -o "$T/no/such/folder.fbank"
 expect 1 "$B/fapbank" info tests/cli/fapbank.sh
 says 'not recognised'
 
+# Face animation tables: the same twice, whole or not at all.
+expect 0 "$B/fapbank" fat builtin -o "$T/a.fat"
+says 'bytes'
+expect 0 "$B/fapbank" fat --quiet builtin -o "$T/b.fat"
+cmp "$T/a.fat" "$T/b.fat" || fail "the tables of the same face differ"
+expect 0 "$B/fapbank" fat builtin -o -
+cmp "$T/a.fat" "$T/out" || fail "standard output gets other tables"
+expect 2 "$B/fapbank" fat builtin
+expect 1 "$B/fapbank" fat tests/cli/fapbank.sh -o "$T/keep.fbank"
+[ "$(cat "$T/keep.fbank")" = keep ] || fail "a failed fat changed its output"
+
 # A text recipe: two triangles that happen to have a face's measures.
 cat >"$T/face.obj" <<'O'
 v 3.1 .5 0
