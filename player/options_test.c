@@ -59,7 +59,7 @@ TEST(play_options, every_option_of_the_face_arrives)
     play_options o;
 
     takes(&o, "--bank b.fbank --blend zhu --crossover blx --generations 5 --emphasis 1.5 --seed 9 "
-              "--no-residual --blink "
+              "--no-residual --blink --regions 4 --overlap 12.5 "
               "- --output null");
     assert_string_equal(o.stream, "-");
     assert_string_equal(o.bank, "b.fbank");
@@ -70,6 +70,19 @@ TEST(play_options, every_option_of_the_face_arrives)
     assert_int_equal(o.face.seed, 9);
     assert_int_equal(o.face.residual, 0);
     assert_int_equal(o.face.blink, 1);
+    assert_int_equal(o.face.regions, 4);
+    assert_float_equal(o.face.overlap_percent, 12.5, 0);
+}
+
+TEST(play_options, every_method_has_its_name)
+{
+    for (int i = 0; fap_blend_name(i); i++) {
+        play_options o;
+        char line[64];
+        snprintf(line, sizeof line, "a.fap -o a.png --blend %s", fap_blend_name(i));
+        takes(&o, line);
+        assert_int_equal(o.face.blend, i);
+    }
 }
 
 TEST(play_options, every_option_of_the_picture_arrives)
@@ -148,6 +161,10 @@ TEST(play_options, wrong_values_are_refused)
         "--frames 1:2:3",
         "--frames 99999999999999999999:",
         "--blend best",
+        "--regions 3",
+        "--regions 0",
+        "--overlap 51",
+        "--overlap -1",
         "--crossover two",
         "--generations -1",
         "--generations 100001",
