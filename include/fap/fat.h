@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /** @file
  * Face animation tables (FAT) for the smallest clients: each FAP moves its vertices along piecewise linear paths, each on
- * its own, and the movements add up. No solver, no key models; a pose is some ten thousand multiplications. Baked from a
+ * its own, and the movements add up. No solver, no key models; a pose is sums alone, and a sine for what turns. Baked from a
  * bank, written and read as a file (docs/fat.md).
  * Source: ISO/IEC 14496-1, FaceDefTables, FaceDefMesh and FaceDefTransform nodes.
  */

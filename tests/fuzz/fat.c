@@ -56,10 +56,10 @@ static void pose(const fap_fat *fat)
     float(*position)[3] = malloc(fap_fat_vertex_count(fat) * sizeof *position);
     fap_frame f = { 0 };
 
-    for (int32_t size = 1; position && size < 1 << 30; size *= 1000) {
+    for (int64_t size = 1; position && size < 1 << 30; size *= 1000) {
         for (int fap = 1; fap <= FAP_COUNT; fap++) {
             f.state[fap] = fap % 7 ? FAP_CODED : FAP_ABSENT;
-            f.value[fap] = fap % 2 ? size : -size;
+            f.value[fap] = (int32_t)(fap % 2 ? size : -size);
         }
         fap_fat_pose(fat, &f, position);
         memset(f.state + 3, 0, sizeof f.state - 3);
