@@ -15,9 +15,8 @@
 
 enum { STRENGTH_MAX = 63, JAW = 3, STEPS = 32767, LEADERS_OF_ONE = 4 };
 
-static const float still_share = 0.01f; /* what moves less than this much of what moves most ... */
-static const float still_mm = 0.02f;    /* what moves less is left out ... */
-static const float ripple_mm = 0.1f;    /* ... and an interval whose bend is less is joined to the next */
+static const float still_mm = 0.02f; /* what moves less is left out ... */
+static const float ripple_mm = 0.1f; /* ... and an interval whose bend is less is joined to the next */
 static const float radians_per_au = 1e-5f;
 static const double least_alike = 0.2; /* correlation below which no FAP follows another */
 
@@ -26,7 +25,6 @@ typedef struct baker {
     const fap_mesh *mesh;
     fap_face *face;
     fap_fat *fat;
-    float least_mm; /* this table's */
     fat_operator op;
     float *weight;                 /* [key_count] */
     float *rest, *posed, *field;   /* x[stride] y[stride] z[stride]; field: of one millimetre of a FAP */
@@ -71,7 +69,7 @@ static int vertex_moves(const baker *b, const fat_table *t, uint32_t v)
 {
     for (int k = 0; k < t->border_count; k++)
         for (size_t axis = 0; axis < 3; axis++)
-            if (fabsf(b->moved[k][axis * b->mesh->stride + v]) > b->least_mm)
+            if (fabsf(b->moved[k][axis * b->mesh->stride + v]) > still_mm)
                 return 1;
     return 0;
 }
@@ -134,24 +132,12 @@ static void drop_border(baker *b, fat_table *t, int k)
     b->moved[t->border_count] = freed;
 }
 
-/* How little a vertex may move and still be kept. A hundredth halves the tables and is not seen. */
-static float least_motion(const baker *b, const fat_table *t)
-{
-    float most = 0;
-
-    for (int k = 0; k < t->border_count; k++)
-        for (size_t i = 0; i < 3 * (size_t)b->mesh->stride; i++)
-            most = fmaxf(most, fabsf(b->moved[k][i]));
-    return fmaxf(still_mm, still_share * most);
-}
-
 /* A table from what is measured at its borders; one that moves nothing is not kept. */
 static int keep_table(baker *b, fat_table t)
 {
     for (int k = t.border_count - 2; k > 0; k--)
         if (t.border[k] != 0 && is_straight(b, &t, k))
             drop_border(b, &t, k);
-    b->least_mm = least_motion(b, &t);
     if (t.border_count == 3 && is_straight(b, &t, 1)) /* then one slope does for both directions */
         drop_border(b, &t, 0);
     for (uint32_t v = 0; v < b->mesh->vertex_count; v++)
