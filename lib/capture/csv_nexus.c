@@ -10,23 +10,28 @@
 
 enum { FIRST_POINT_COLUMN = 2, SHORT_HEAD_LINES = 6 };
 
-static text first_cell(text line)
+/* Where the first cell ends: its separator, or the end of the line. */
+static size_t first_end(text line)
 {
     size_t n = 0;
 
     while (n < line.length && line.start[n] != ',' && line.start[n] != ';' && line.start[n] != '\t')
         n++;
-    return text_trim((text){ line.start, n });
+    return n;
+}
+
+static text first_cell(text line)
+{
+    return text_trim((text){ line.start, first_end(line) });
 }
 
 static int is_column_line(text line)
 {
-    const text first = first_cell(line);
+    const size_t end = first_end(line);
 
-    if (!text_is(first, "Frame") || line.length <= first.length + 1)
+    if (!text_is(first_cell(line), "Frame") || end == line.length)
         return 0;
-    const size_t skip = (size_t)(first.start - line.start) + first.length + 1;
-    return text_is(first_cell((text){ line.start + skip, line.length - skip }), "Sub Frame");
+    return text_is(first_cell((text){ line.start + end + 1, line.length - end - 1 }), "Sub Frame");
 }
 
 /* Leaves @p lines behind the line "Trajectories", or 0. */

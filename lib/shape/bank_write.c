@@ -531,9 +531,21 @@ static void image_close(image *m)
     free(m->delta);
 }
 
+static int eyes_are_sane(const fap_bank_builder *b)
+{
+    for (int right = 0; right < 2; right++)
+        if (!sane((const float(*)[3])b->eye[right], 1) ||
+            !(b->eye[right][3] >= 0 && b->eye[right][3] <= 10000))
+            return 0;
+    return 1;
+}
+
 fap_err fap_bank_builder_write(fap_bank_builder *b, const fap_writer *out)
 {
     image m;
+
+    if (!eyes_are_sane(b))
+        return FAP_E_DATA;
     fap_err err = image_open(&m, b) ? fill_chunks(&m) : FAP_E_NOMEM;
 
     if (!err)

@@ -63,7 +63,7 @@ FAP_API FAP_NODISCARD fap_err fap_bank_builder_models(fap_bank_builder *b);
 
 /**
  * Write the file. Vertices are reordered so that those that move together stand together.
- * @return FAP_OK; FAP_E_DATA the points give no FAPU; FAP_E_IO; FAP_E_NOMEM; FAP_E_LIMIT
+ * @return FAP_OK; FAP_E_DATA the points give no FAPU, or an eye is no eye; FAP_E_IO; FAP_E_NOMEM; FAP_E_LIMIT
  */
 FAP_API FAP_NODISCARD fap_err fap_bank_builder_write(fap_bank_builder *b, const fap_writer *out);
 
