@@ -37,17 +37,18 @@ int fap_fba_search_open(fap_encoder *e);
 void fap_fba_search_close(fap_encoder *e);
 /* Chooses quantiser, places and frames to leave out, for the first @p count frames of the queue. */
 void fap_fba_search_run(fap_encoder *e, int count, int intra);
-/* With FAP_ENCODE_ERROR: how many frames are not off by more than is permitted where an I plane would do better. */
-int fap_fba_search_carried(fap_encoder *e, int count);
 /* What the frames ask for; those that do not send a FAP keep what was asked for last. */
 void fap_fba_gather(fap_encoder *e, int count);
 /* Frames that were coded leave the queue. */
 void fap_fba_search_done(fap_encoder *e, int done);
+/* --- fba_try.c --- */
+
 /* Tries lambda as it is in level: path, left_out, bits, error. */
 void fap_fba_try(fap_encoder *e, int count, int intra);
-
 /* What not to code a FAP is worth, after a trial of an I plane and what follows: its error and its bits. */
 uint64_t fap_fba_worth(fap_encoder *e, int fap, int count);
+/* With FAP_ENCODE_ERROR: how many frames are not off by more than is permitted where an I plane would do better. */
+int fap_fba_search_carried(fap_encoder *e, int count);
 
 /* --- fba_rate.c --- */
 
