@@ -16,7 +16,7 @@
 #include "codec/fba_face.h"
 #include "codec/fba_header.h"
 #include "codec/fba_time.h"
-#include "codec/fba_trial.h"
+#include "codec/fba_unsaid.h"
 
 enum {
     STATE_MAX = 64 * 1024, /* bytes of a decoder with default options */
@@ -128,7 +128,7 @@ static fap_err recognise_bound(fap_decoder *d, uint64_t at, const fba_header *h)
     if (d->cfg.default_bound || h->has_body)
         return FAP_OK;
     d->bits.at = at;
-    d->silent_bound = fap_fba_trial(&d->bits, &d->face, d->model, &d->pool);
+    d->silent_bound = fap_fba_unsaid_bound(&d->bits, &d->face, d->model, &d->pool);
     d->bits = here;
     return d->silent_bound ? note(d, DEV_SILENT_BOUND) : FAP_OK;
 }

@@ -7,7 +7,7 @@ import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DECODER = "arith bits conceal fba fba_body fba_codes fba_decode fba_face fba_header fba_time fba_trial models".split()
+DECODER = "arith bits conceal fba fba_body fba_codes fba_decode fba_face fba_header fba_time fba_unsaid models".split()
 
 
 def excuses():

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* See fba_trial.h. */
+/* See fba_unsaid.h. */
 #include "codec/fba_codes.h"
 #include "codec/fba_header.h"
-#include "codec/fba_trial.h"
+#include "codec/fba_unsaid.h"
 
 enum { ENOUGH_PLANES = 64 };
 
@@ -66,7 +66,7 @@ static int until_next_code(fap_bits *bits)
     return 1;
 }
 
-int fap_fba_trial(const fap_bits *bits, const fba_face *face, model *models, model_pool *pool)
+int fap_fba_unsaid_bound(const fap_bits *bits, const fba_face *face, model *models, model_pool *pool)
 {
     fap_bits b = *bits;
     const int has_code = until_next_code(&b);
