@@ -9,7 +9,7 @@
 
 #include <fap/face.h>
 
-enum { BUILTIN, DEFAULT_FACE };
+#include "bank/faces_test.h"
 
 typedef struct rig {
     fap_face *face;
@@ -22,31 +22,6 @@ typedef struct goal {
     float mm[FAP_POINT_COUNT][3];
     uint8_t wanted[FAP_POINT_COUNT][3];
 } goal;
-
-static size_t read_file(void *user, void *buf, size_t size)
-{
-    return fread(buf, 1, size, user);
-}
-
-static fap_bank *load(int which)
-{
-    fap_bank *bank = NULL;
-
-    if (which == BUILTIN) {
-        assert_int_equal(fap_bank_builtin(&bank, NULL), FAP_OK);
-        return bank;
-    }
-    FILE *f = fopen("build/default.fbank", "rb");
-    if (!f) {
-        fprintf(stderr, "SKIP: build/default.fbank is not there\n");
-        skip();
-    }
-    const fap_reader reader = { read_file, f };
-    const fap_err err = fap_bank_read(&bank, &reader, NULL);
-    fclose(f);
-    assert_int_equal(err, FAP_OK);
-    return bank;
-}
 
 static fap_face_config config(fap_blend blend, int regions, int residual)
 {
@@ -137,7 +112,7 @@ static void open_trio(trio *t, int which, int regions)
     const fap_face_config zhu = config(FAP_BLEND_ZHU, regions, 0), qp = config(FAP_BLEND_QP, regions, 0),
                           ga = config(FAP_BLEND_GA, regions, 0);
 
-    t->bank = load(which);
+    t->bank = test_bank(which);
     open_rig(&t->zhu, t->bank, &zhu);
     open_rig(&t->qp, t->bank, &qp);
     open_rig(&t->ga, t->bank, &ga);
@@ -218,7 +193,7 @@ static float farthest_from(rig *r, const fap_bank *bank, const goal *g)
 static void check_points(fap_blend blend, int regions)
 {
     const fap_face_config cfg = config(blend, regions, 1);
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     rig r;
     goal g = { 0 };
 
@@ -243,7 +218,7 @@ TEST(blend, points_given_in_three_axes_arrive)
 TEST(blend, what_is_no_number_is_not_wanted)
 {
     const fap_face_config cfg = config(FAP_BLEND_GA, 1, 1);
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     fap_face_stats stats;
     rig r;
     goal g = { 0 };
@@ -286,7 +261,7 @@ static float gap_between(rig *r, const fap_bank *bank)
 TEST(blend, regions_make_what_no_symmetric_key_shows_and_no_seam)
 {
     const fap_face_config whole = config(FAP_BLEND_ZHU, 1, 0), four = config(FAP_BLEND_ZHU, 4, 0);
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     fap_face_stats a, b;
     rig r, s;
     goal joy = { 0 }, sad = { 0 };
@@ -311,7 +286,7 @@ TEST(blend, regions_make_what_no_symmetric_key_shows_and_no_seam)
 TEST(blend, methods_without_regions_ignore_them)
 {
     const fap_face_config one = config(FAP_BLEND_PCA, 1, 1), four = config(FAP_BLEND_PCA, 4, 1);
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     fap_frame frame;
     rig r, s;
 
@@ -332,7 +307,7 @@ TEST(blend, refuses_other_region_counts_and_overlaps)
         int regions;
         float overlap;
     } bad[] = { { 0, 20 }, { 3, 20 }, { 8, 20 }, { -1, 20 }, { 4, -1 }, { 4, 51 }, { 4, NAN } };
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     fap_face *face;
 
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -397,7 +372,7 @@ static void check_memory(const fap_bank *bank, fap_blend blend)
 
 TEST(blend, every_method_gives_everything_back_when_memory_runs_out)
 {
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
 
     for (int i = 0; fap_blend_name(i); i++)
         check_memory(bank, (fap_blend)i);
@@ -406,7 +381,7 @@ TEST(blend, every_method_gives_everything_back_when_memory_runs_out)
 
 TEST(blend, no_method_allocates_in_a_pose)
 {
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
 
     for (int i = 0; fap_blend_name(i); i++) {
         budget b = { .left = 1 << 20 };

@@ -9,6 +9,8 @@
 
 #include <fap/face.h>
 
+#include "bank/faces_test.h"
+
 typedef struct rig {
     fap_bank *bank;
     fap_face *face;
@@ -16,33 +18,6 @@ typedef struct rig {
     float *position, *normal;
     float neutral[FAP_POINT_COUNT][3], point[FAP_POINT_COUNT][3];
 } rig;
-
-enum { BUILTIN, DEFAULT_FACE, FACE_COUNT };
-
-static size_t read_file(void *user, void *buf, size_t size)
-{
-    return fread(buf, 1, size, user);
-}
-
-static fap_bank *load(int which)
-{
-    fap_bank *bank = NULL;
-
-    if (which == BUILTIN) {
-        assert_int_equal(fap_bank_builtin(&bank, NULL), FAP_OK);
-        return bank;
-    }
-    FILE *f = fopen("build/default.fbank", "rb");
-    if (!f) {
-        fprintf(stderr, "SKIP: build/default.fbank is not there\n");
-        skip();
-    }
-    const fap_reader reader = { read_file, f };
-    const fap_err err = fap_bank_read(&bank, &reader, NULL);
-    fclose(f);
-    assert_int_equal(err, FAP_OK);
-    return bank;
-}
 
 static fap_face_config config(fap_blend blend)
 {
@@ -64,7 +39,7 @@ static void open_rig(rig *r, int which, const fap_face_config *cfg)
     const fap_frame still = { 0 };
 
     memset(r, 0, sizeof *r);
-    r->bank = load(which);
+    r->bank = test_bank(which);
     assert_int_equal(fap_face_open(&r->face, r->bank, cfg), FAP_OK);
     r->stride = fap_face_stride(r->face);
     r->position = aligned_alloc(32, 3 * r->stride * sizeof(float));
@@ -660,7 +635,7 @@ static void count_free(void *user, void *ptr)
 
 TEST(face, gives_everything_back_when_memory_runs_out)
 {
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     fap_face_config cfg = config(FAP_BLEND_GA);
     fap_err err = FAP_E_NOMEM;
 
@@ -694,7 +669,7 @@ TEST(face, poses_without_allocating)
 
 TEST(face, refuses_a_bad_config)
 {
-    fap_bank *bank = load(BUILTIN);
+    fap_bank *bank = test_bank(BUILTIN);
     fap_face *face;
     fap_face_config cfg = config(FAP_BLEND_GA);
 
