@@ -14,6 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <fap/alloc.h>
 #include <fap/error.h>
@@ -77,6 +78,27 @@ static inline void fuzz_memory_error(fap_err whole, fap_err without)
 {
     if (whole == FAP_OK ? without != FAP_E_NOMEM : without == FAP_OK)
         abort();
+}
+
+/*
+ * Loads a sealed copy of the input with all the memory there is, and then once more for every allocation, which fails.
+ */
+static inline void fuzz_every_allocation(const uint8_t *data, size_t size,
+                                         void (*seal)(uint8_t *data, size_t size),
+                                         fap_err (*load)(const uint8_t *data, size_t size, fuzz_memory *m))
+{
+    fuzz_memory all = { 0 };
+    uint8_t *copy = malloc(size + 1);
+
+    if (!copy)
+        return;
+    if (size)
+        memcpy(copy, data, size);
+    seal(copy, size);
+    const fap_err whole = load(copy, size, &all);
+    for (long n = 1; n <= all.asked; n++)
+        fuzz_memory_error(whole, load(copy, size, &(fuzz_memory){ .fail_at = n }));
+    free(copy);
 }
 
 #endif

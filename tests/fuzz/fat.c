@@ -89,17 +89,6 @@ static fap_err load(const uint8_t *data, size_t size, fuzz_memory *m)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_memory all = { 0 };
-    uint8_t *copy = malloc(size + 1);
-
-    if (!copy)
-        return 0;
-    if (size)
-        memcpy(copy, data, size);
-    seal(copy, size);
-    const fap_err whole = load(copy, size, &all);
-    for (long n = 1; n <= all.asked; n++)
-        fuzz_memory_error(whole, load(copy, size, &(fuzz_memory){ .fail_at = n }));
-    free(copy);
+    fuzz_every_allocation(data, size, seal, load);
     return 0;
 }
