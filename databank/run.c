@@ -92,7 +92,14 @@ static int tee_write(void *user, const void *data, size_t size)
     return fwrite(data, 1, size, t->file) != size;
 }
 
-static fap_err write_bank(fap_bank_builder *b, const options *opt, report *rep)
+/* What is written, and what loads it again before it is kept. */
+typedef struct product {
+    fap_err (*write)(void *of, const fap_writer *out);
+    fap_err (*check)(report *rep, const tee *t);
+    void *of;
+} product;
+
+static fap_err write_product(const product *p, const options *opt, report *rep)
 {
     out_file out;
     fap_err err = out_file_open(&out, opt->output);
@@ -101,9 +108,9 @@ static fap_err write_bank(fap_bank_builder *b, const options *opt, report *rep)
 
     tee t = { .file = out.stream };
     const fap_writer w = { tee_write, &t };
-    err = fap_bank_builder_write(b, &w);
+    err = p->write(p->of, &w);
     if (!err)
-        err = fap_bank_load(&rep->bank, t.data, t.size, NULL);
+        err = p->check(rep, &t);
     rep->size = t.size;
     free(t.data);
     if (!err)
@@ -113,35 +120,29 @@ static fap_err write_bank(fap_bank_builder *b, const options *opt, report *rep)
     return blame(rep, opt->output, err);
 }
 
-/* Tables are loaded again, too, before they are kept. */
-static fap_err check_fat(const tee *t)
+static fap_err write_bank(void *builder, const fap_writer *out)
+{
+    return fap_bank_builder_write(builder, out);
+}
+
+static fap_err check_bank(report *rep, const tee *t)
+{
+    return fap_bank_load(&rep->bank, t->data, t->size, NULL);
+}
+
+static fap_err write_fat(void *fat, const fap_writer *out)
+{
+    return fap_fat_write(fat, out);
+}
+
+static fap_err check_fat(report *rep, const tee *t)
 {
     fap_fat *again;
     const fap_err err = fap_fat_load(&again, t->data, t->size, NULL);
 
+    (void)rep;
     fap_fat_close(&again);
     return err;
-}
-
-static fap_err write_fat(const fap_fat *fat, const options *opt, report *rep)
-{
-    out_file out;
-    fap_err err = out_file_open(&out, opt->output);
-    if (err)
-        return blame(rep, opt->output, err);
-
-    tee t = { .file = out.stream };
-    const fap_writer w = { tee_write, &t };
-    err = fap_fat_write(fat, &w);
-    if (!err)
-        err = check_fat(&t);
-    rep->size = t.size;
-    free(t.data);
-    if (!err)
-        err = out_file_commit(&out);
-    else
-        out_file_abandon(&out);
-    return blame(rep, opt->output, err);
 }
 
 static fap_err make_fat(const options *opt, report *rep)
@@ -152,7 +153,7 @@ static fap_err make_fat(const options *opt, report *rep)
     if (!err)
         err = blame(rep, opt->input, fap_fat_bake(&fat, rep->bank, NULL));
     if (!err)
-        err = write_fat(fat, opt, rep);
+        err = write_product(&(product){ write_fat, check_fat, fat }, opt, rep);
     fap_fat_close(&fat);
     return err;
 }
@@ -163,7 +164,7 @@ static fap_err build(const options *opt, report *rep)
     fap_err err = make(&b, opt->input, rep);
 
     if (!err)
-        err = write_bank(b, opt, rep);
+        err = write_product(&(product){ write_bank, check_bank, b }, opt, rep);
     fap_bank_builder_close(&b);
     return err;
 }
