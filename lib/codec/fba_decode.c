@@ -209,16 +209,9 @@ static void keep_face(fap_decoder *d, const fba_face *copy, int intra)
     d->face_ready = 1;
 }
 
-static void hold_all(fap_frame *f)
-{
-    for (int fap = 1; fap <= FAP_COUNT; fap++)
-        if (f->state[fap] != FAP_ABSENT)
-            f->state[fap] = FAP_HELD;
-}
-
 static void show_frame(fap_decoder *d, const fba_header *h)
 {
-    hold_all(&d->frame);
+    fap_frame_hold(&d->frame);
     if (h->has_face)
         fap_fba_face_show(&d->face, d->cfg.fit, &d->frame);
     d->frame.number = d->time.number;

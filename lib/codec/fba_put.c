@@ -220,13 +220,6 @@ static put_result put_frame(fap_encoder *e, fap_bit_writer *w, const fba_queued 
 
 /* --- what is shown --- */
 
-static void hold_all(fap_frame *f)
-{
-    for (int fap = 1; fap <= FAP_COUNT; fap++)
-        if (f->state[fap] != FAP_ABSENT)
-            f->state[fap] = FAP_HELD;
-}
-
 /* As the decoder does it. P planes send what the I plane did, so states only change where some are derived. */
 static void show_coded(fap_encoder *e, int intra)
 {
@@ -235,7 +228,7 @@ static void show_coded(fap_encoder *e, int intra)
     for (int group = 2; group <= FAP_GROUPS; group++)
         derives |= e->face.setup.mask_type[group] == FBA_MASK_INTERPOLATE;
     if (intra || derives)
-        hold_all(&e->shown_now);
+        fap_frame_hold(&e->shown_now);
     fap_fba_face_show(&e->face, e->cfg.fit, &e->shown_now);
     for (int fap = 3; derives && fap <= FAP_COUNT; fap++)
         e->stats.derived += e->shown_now.state[fap] == FAP_DERIVED;
@@ -260,7 +253,7 @@ static void show(fap_encoder *e, const fba_queued *q, put_result r, int intra)
         show_coded(e, intra);
     *out = e->shown_now;
     if (r != PUT_DONE)
-        hold_all(out);
+        fap_frame_hold(out);
     out->number = q->number;
     out->pts_us = fap_fba_frames_us(e->rate_16, e->offset, q->number);
     note_error(e, &q->frame, out);

@@ -22,3 +22,10 @@ int fap_frame_is_sound(const fap_frame *f)
     return (f->state[1] != FAP_CODED || fap_viseme_is_sound(&f->viseme)) &&
            (f->state[2] != FAP_CODED || fap_expression_is_sound(&f->expression));
 }
+
+void fap_frame_hold(fap_frame *f)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (f->state[fap] != FAP_ABSENT)
+            f->state[fap] = FAP_HELD;
+}

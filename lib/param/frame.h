@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* What the codecs ask of a frame before they write it. */
+/* What the codecs ask of a frame before they write it, and do to it before they show it. */
 #ifndef LIB_PARAM_FRAME_H
 #define LIB_PARAM_FRAME_H
 
@@ -12,5 +12,7 @@ int fap_expression_is_sound(const fap_expression *e);
 
 /* Viseme and expression, where coded, are within their ranges. */
 int fap_frame_is_sound(const fap_frame *f);
+/* FAPs that are known become held: what the next plane does not code stays so. */
+void fap_frame_hold(fap_frame *f);
 
 #endif
