@@ -22,6 +22,8 @@ has = $(shell $(PKG) --exists $(1) 2>/dev/null && echo 1)
 # --- what is there ------------------------------------------------------------------------------------------------
 # Each outside library is named in exactly one driver; a missing one switches that driver off.
 OSMESA  := $(call has,osmesa)
+EGL     := $(call has,egl)
+GL      := $(OSMESA)$(EGL)
 PNG     := $(call has,libpng)
 SNDFILE := $(call has,sndfile)
 JPEG    := $(call has,libjpeg)
@@ -43,9 +45,9 @@ TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c encoder/*_test.c
 obj       = $(patsubst %.c,$(B)/%.o,$(1))
 
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
-RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
+RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
-DEFS     := $(if $(OSMESA),-DHAVE_OSMESA) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \
+DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHAVE_EGL) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \
             $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB)
 
 TOOLS    := $(B)/fapenc $(B)/fapplay $(B)/fapbank

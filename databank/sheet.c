@@ -60,7 +60,8 @@ static fap_err draw(sheet *s, int key)
     fap_face_pose_keys(s->face, s->weight, s->position, s->normal);
     if (key != NEUTRAL)
         s->weight[key] = 0;
-    const fap_err err = renderer_draw(s->renderer, s->position, s->normal, s->style->camera, &s->tile);
+    const render_scene scene = { s->position, s->normal, .view = render_view_of(s->style->camera) };
+    const fap_err err = renderer_draw(s->renderer, &scene, &s->tile);
     if (err)
         return err;
     name_of(s, key, name, sizeof name);
@@ -99,7 +100,7 @@ static fap_err open_face(sheet *s)
 static fap_err open_pictures(sheet *s, char *where)
 {
     const int rows = (count_wanted(s) + s->style->columns - 1) / s->style->columns;
-    fap_err err = renderer_create(&s->renderer, s->bank, s->style->tile_px, s->style->tile_px, where);
+    fap_err err = renderer_create(&s->renderer, NULL, s->bank, s->style->tile_px, s->style->tile_px, where);
 
     if (!err)
         err = image_create(&s->tile, s->style->tile_px, s->style->tile_px);

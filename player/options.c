@@ -210,6 +210,12 @@ static int set_camera(play_options *o, const char *text)
     return i >= 0;
 }
 
+static int set_gl(play_options *o, const char *text)
+{
+    o->gl = text;
+    return !strcmp(text, "osmesa") || !strcmp(text, "egl");
+}
+
 static int set_sheet(play_options *o, const char *text)
 {
     return small_integer(text, 1, PLAY_MAX_MOMENTS, &o->moments);
@@ -271,6 +277,7 @@ static const option_row rows[] = {
     { "fps", set_rate, "frames a second, from 0.001 to 1000" },
     { "frames", set_frames, "A:B, the first frame and the one behind the last" },
     { "camera", set_camera, "front, left, right or three-quarter" },
+    { "gl", set_gl, "osmesa or egl" },
     { "sheet", set_sheet, "a number from 1 to 1024" },
     { "golden", set_golden, "a folder" },
     { "update", set_update, NULL },
@@ -325,6 +332,7 @@ static const char help_text[] =
     "Pictures and time:\n"
     "  --size WxH               pixels (720x720; pictures of a sheet 320x320); even for films\n"
     "  --camera C               front, left, right or three-quarter (front)\n"
+    "  --gl osmesa|egl          OpenGL without a window by this library (the first that works)\n"
     "  --fps R                  frames a second (as the stream)\n"
     "  --frames A:B             from frame A up to, without, frame B, at the output's rate; either may be "
     "left out\n"

@@ -19,6 +19,7 @@ typedef struct play_options {
     const char *output, *golden, *audio;
     const play_sink *sink;
     fap_face_config face;
+    const char *gl; /* how to draw without a window; NULL: what works */
     render_camera camera;
     int width, height;
     double rate_hz;   /* 0: the stream's */

@@ -90,6 +90,7 @@ TEST(play_options, every_option_of_the_picture_arrives)
     play_options o;
 
     takes(&o, "a.fap -o a.mp4 --size 64x32 --fps 29.97 --frames 3:9 --camera three-quarter --audio a.wav "
+              "--gl egl "
               "--json --quiet");
     assert_int_equal(o.width, 64);
     assert_int_equal(o.height, 32);
@@ -97,6 +98,7 @@ TEST(play_options, every_option_of_the_picture_arrives)
     assert_int_equal(o.from, 3);
     assert_int_equal(o.to, 9);
     assert_int_equal(o.camera, CAMERA_THREE_QUARTER);
+    assert_string_equal(o.gl, "egl");
     assert_string_equal(o.audio, "a.wav");
     assert_true(o.json && o.quiet);
 }
@@ -173,6 +175,7 @@ TEST(play_options, wrong_values_are_refused)
         "--seed -1",
         "--seed 0x1",
         "--camera back",
+        "--gl vulkan",
         "--tolerance 256",
         "--sheet 0",
         "--sheet 1025",

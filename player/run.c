@@ -170,12 +170,12 @@ static int open_renderer(player *p)
 
     if (!o->sink->needs_picture)
         return 1;
-    const fap_err err = renderer_create(&p->renderer, p->bank, o->width, o->height, where);
+    const fap_err err = renderer_create(&p->renderer, o->gl, p->bank, o->width, o->height, where);
     if (err == FAP_E_UNSUPPORTED)
         return fault_set(
             &p->report->fault, EXIT_MISSING,
-            "no pictures here: %s; install OSMesa (Debian: apt install libosmesa6-dev) and build again, or "
-            "ask for -o NAME.csv",
+            "no pictures here: %s; install OSMesa or EGL (Debian: apt install libosmesa6-dev libegl-dev) and "
+            "build again, or ask for -o NAME.csv",
             where);
     if (err || image_create(&p->picture, o->width, o->height))
         return fault_set(&p->report->fault, EXIT_DATA, "cannot draw %d x %d pixels: %s", o->width, o->height,
@@ -224,7 +224,8 @@ static int draw(player *p)
 {
     if (!p->renderer)
         return 1;
-    const fap_err err = renderer_draw(p->renderer, p->position, p->normal, p->opt->camera, &p->picture);
+    const render_scene scene = { p->position, p->normal, .view = render_view_of(p->opt->camera) };
+    const fap_err err = renderer_draw(p->renderer, &scene, &p->picture);
     return err ? fault_set(&p->report->fault, EXIT_DATA, "drawing failed: %s", fap_strerror(err)) : 1;
 }
 

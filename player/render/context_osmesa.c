@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* OSMesa: OpenGL in software, without display or driver files. Debian 12 and 13 have it; Mesa 25.1 dropped
- * it. */
+/* OSMesa: OpenGL in software, without display or driver files. Debian 12 and 13 have it; Mesa 25.1 dropped it. */
 #ifdef HAVE_OSMESA
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "player/render/context.h"
 
 /* GL/osmesa.h would pull in GL/gl.h, whose prototypes clash with glcorearb.h. */
@@ -15,22 +11,17 @@
 enum { DUMMY_SIZE = 16 };
 
 /* OSMesa wants a buffer of its own even though nothing is drawn there. */
-struct gl_context {
+typedef struct osmesa_state {
     OSMesaContext osmesa;
     unsigned char dummy[DUMMY_SIZE * DUMMY_SIZE * 4];
-};
+} osmesa_state;
 
-static gl_function get_function(const char *name)
+static int make_current(osmesa_state *s)
 {
-    return (gl_function)OSMesaGetProcAddress(name);
+    return OSMesaMakeCurrent(s->osmesa, s->dummy, GL_UNSIGNED_BYTE, DUMMY_SIZE, DUMMY_SIZE);
 }
 
-void gl_context_make_current(gl_context *context)
-{
-    OSMesaMakeCurrent(context->osmesa, context->dummy, GL_UNSIGNED_BYTE, DUMMY_SIZE, DUMMY_SIZE);
-}
-
-fap_err gl_context_create(gl_context **out, gl_functions *gl, char *where)
+static int osmesa_open(void *state)
 {
     static const int attributes[] = { OSMESA_FORMAT,
                                       OSMESA_RGBA,
@@ -43,33 +34,36 @@ fap_err gl_context_create(gl_context **out, gl_functions *gl, char *where)
                                       OSMESA_CONTEXT_MINOR_VERSION,
                                       3,
                                       0 };
-    gl_context *context = calloc(1, sizeof *context);
+    osmesa_state *s = state;
 
-    *out = NULL;
-    if (!context)
-        return FAP_E_NOMEM;
-    context->osmesa = OSMesaCreateContextAttribs(attributes, NULL);
-    if (!context->osmesa) {
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "OSMesa gives no OpenGL 3.3 core context");
-        free(context);
-        return FAP_E_UNSUPPORTED;
-    }
-    gl_context_make_current(context);
-    const char *missing = gl_load(gl, get_function);
-    if (missing) {
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "OSMesa has no %s", missing);
-        gl_context_destroy(context);
-        return FAP_E_UNSUPPORTED;
-    }
-    *out = context;
-    return FAP_OK;
+    s->osmesa = OSMesaCreateContextAttribs(attributes, NULL);
+    return s->osmesa && make_current(s);
 }
 
-void gl_context_destroy(gl_context *context)
+static void osmesa_make_current(void *state)
 {
-    if (!context)
-        return;
-    OSMesaDestroyContext(context->osmesa);
-    free(context);
+    make_current(state);
 }
+
+static gl_function osmesa_get_function(const char *name)
+{
+    return (gl_function)OSMesaGetProcAddress(name);
+}
+
+static void osmesa_close(void *state)
+{
+    osmesa_state *s = state;
+    if (s->osmesa)
+        OSMesaDestroyContext(s->osmesa);
+}
+
+const gl_context_driver gl_context_osmesa = {
+    .name = "osmesa",
+    .missing = "OSMesa gives no OpenGL 3.3 core context",
+    .state_size = sizeof(osmesa_state),
+    .open = osmesa_open,
+    .make_current = osmesa_make_current,
+    .get_function = osmesa_get_function,
+    .close = osmesa_close,
+};
 #endif

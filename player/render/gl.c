@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See gl.h. Empty in a build without any GL context, where GL/glcorearb.h may be missing too. */
-#ifdef HAVE_OSMESA
+#ifdef HAVE_GL
 #include <stddef.h>
 
 #include "player/render/gl.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * The functions of OpenGL 3.3 core that the renderer calls, loaded from whichever context there is. The types come from
- * Khronos' GL/glcorearb.h; no loader library knows OSMesa, and forty pointers do not need one.
+ * Khronos' GL/glcorearb.h; no loader library knows OSMesa, and sixty pointers do not need one.
  */
 #ifndef PLAYER_RENDER_GL_H
 #define PLAYER_RENDER_GL_H
@@ -15,7 +15,9 @@
     X(PFNGLCLEARPROC, Clear)                                                                                 \
     X(PFNGLENABLEPROC, Enable)                                                                               \
     X(PFNGLDISABLEPROC, Disable)                                                                             \
-    X(PFNGLCOLORMASKPROC, ColorMask)                                                                         \
+    X(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                     \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                                 \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                         \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                     \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                       \
@@ -30,21 +32,30 @@
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                                   \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                     \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                   \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                         \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                 \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                       \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                       \
+    X(PFNGLUNIFORM1FPROC, Uniform1f)                                                                         \
     X(PFNGLUNIFORM3FVPROC, Uniform3fv)                                                                       \
     X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                                                           \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                             \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                             \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                       \
     X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                       \
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                       \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                       \
+    X(PFNGLMAPBUFFERRANGEPROC, MapBufferRange)                                                               \
+    X(PFNGLUNMAPBUFFERPROC, UnmapBuffer)                                                                     \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                 \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                     \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                             \
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                             \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                             \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                       \
     X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                           \
     X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                                           \
+    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                     \
     X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                               \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                             \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                               \

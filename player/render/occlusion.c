@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See occlusion.h. */
-#ifdef HAVE_OSMESA
+#ifdef HAVE_GL
 #include <stdlib.h>
 #include <string.h>
 
 #include <cglm/cglm.h>
 
+#include "player/render/gl_objects.h"
 #include "player/render/occlusion.h"
 
 enum { SIZE = 320, DIRECTIONS = 40, SMOOTHINGS = 3 };
@@ -113,20 +114,20 @@ static void add_seen(const cloud *c, vec3 from, mat4 view, const float *depth, f
     }
 }
 
-static GLuint depth_target(gl_functions *gl)
+static gl_target depth_target(const gl_functions *gl)
 {
-    GLuint frame, depth;
+    gl_target t = { 0 };
 
-    gl->GenFramebuffers(1, &frame);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
-    gl->GenRenderbuffers(1, &depth);
-    gl->BindRenderbuffer(GL_RENDERBUFFER, depth);
+    gl->GenFramebuffers(1, &t.frame);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, t.frame);
+    gl->GenRenderbuffers(1, &t.depth);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, t.depth);
     gl->RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_DEPTH_COMPONENT32F, SIZE, SIZE);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
-    return frame;
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t.depth);
+    return t;
 }
 
-static void draw_depth(gl_functions *gl, GLint uniform, mat4 view, uint32_t triangles, float *depth)
+static void draw_depth(const gl_functions *gl, GLint uniform, mat4 view, uint32_t triangles, float *depth)
 {
     gl->UniformMatrix4fv(uniform, 1, GL_FALSE, view[0]);
     gl->Clear(GL_DEPTH_BUFFER_BIT);
@@ -134,7 +135,7 @@ static void draw_depth(gl_functions *gl, GLint uniform, mat4 view, uint32_t tria
     gl->ReadPixels(0, 0, SIZE, SIZE, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
 }
 
-static void look_around(gl_functions *gl, const cloud *c, const fap_mesh *mesh, GLuint index_buffer,
+static void look_around(const gl_functions *gl, const cloud *c, const fap_mesh *mesh, GLuint index_buffer,
                         GLuint program, float *depth, float *sum, float *seen)
 {
     GLuint array, vertices;
@@ -147,7 +148,7 @@ static void look_around(gl_functions *gl, const cloud *c, const fap_mesh *mesh, 
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
     gl->EnableVertexAttribArray(0);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer);
-    depth_target(gl);
+    gl_target target = depth_target(gl);
     gl->Viewport(0, 0, SIZE, SIZE);
     gl->Enable(GL_DEPTH_TEST);
     gl->UseProgram(program);
@@ -160,6 +161,9 @@ static void look_around(gl_functions *gl, const cloud *c, const fap_mesh *mesh, 
         draw_depth(gl, uniform, view, mesh->triangle_count, depth);
         add_seen(c, from, view, depth, sum, seen);
     }
+    gl_target_delete(gl, &target);
+    gl->DeleteBuffers(1, &vertices);
+    gl->DeleteVertexArrays(1, &array);
 }
 
 /* Vertices at a grazing angle are seen or not by a hair; the mean with their neighbours hides that. */
@@ -180,7 +184,7 @@ static void smooth(const fap_mesh *mesh, float *open, float *sum, float *count)
             open[i] = sum[i] / count[i];
 }
 
-fap_err occlusion_measure(gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
+fap_err occlusion_measure(const gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
                           float *open)
 {
     const fap_mesh *mesh = fap_bank_mesh(bank);

@@ -11,7 +11,7 @@
  * @index_buffer  the mesh's triangles, already on the GL side
  * @open          [vertex_count], 0: sees nothing, 1: nothing in the way
  */
-fap_err occlusion_measure(gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
+fap_err occlusion_measure(const gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
                           float *open);
 
 #endif

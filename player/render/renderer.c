@@ -1,266 +1,273 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See renderer.h. */
-#ifdef HAVE_OSMESA
+#ifdef HAVE_GL
 #include <stdlib.h>
 #include <string.h>
 
 #include "player/render/camera.h"
 #include "player/render/context.h"
-#include "player/render/occlusion.h"
+#include "player/render/gl_objects.h"
+#include "player/render/overlay.h"
 #include "player/render/renderer.h"
 #include "player/render/shaders.h"
 
 enum { SAMPLES = 4 };
-enum { ATTRIBUTE_POSITION, ATTRIBUTE_NORMAL, ATTRIBUTE_PAINT, ATTRIBUTE_SURFACE };
-
-typedef struct moving_vertex {
-    float position[3], normal[3];
-} moving_vertex;
-
-typedef struct still_vertex {
-    uint8_t paint[4];
-    uint8_t open, part, head, unused;
-} still_vertex;
 
 struct renderer {
-    gl_context *context;
+    gl_context own; /* zeroed where the context is the caller's */
+    gl_context_source source;
     gl_functions gl;
+    int loaded; /* whether gl can be called */
     const fap_bank *bank;
-    int width, height;
-    moving_vertex *moving;
-    GLuint drawn, resolved; /* framebuffers: multisampled, and what is read back */
-    GLuint background, face;
-    GLuint background_array, face_array, moving_buffer, index_buffer;
-    GLint view_projection, eye;
+    head_frame head;
+    int width, height;         /* 0: no targets */
+    gl_target drawn, resolved; /* multisampled, and what is read back */
+    GLuint background, background_array;
+    GLuint program;
+    GLint view_projection, eye; /* uniforms */
+    face_array face;
+    overlay over;
 };
 
-static GLuint compile(gl_functions *gl, GLenum type, const char *source, char *where)
+/* --- making and unmaking --- */
+
+static fap_err make_programs(renderer *r, char *where)
 {
-    const GLuint shader = gl->CreateShader(type);
-    GLint ok;
+    const gl_functions *gl = &r->gl;
 
-    gl->ShaderSource(shader, 1, &source, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok)
-        return shader;
-    gl->GetShaderInfoLog(shader, FAP_ERROR_TEXT_SIZE, NULL, where);
-    gl->DeleteShader(shader);
-    return 0;
-}
-
-/* 0 on failure, with the compiler's words in @where. */
-static GLuint build_program(gl_functions *gl, const char *vertex_source, const char *fragment_source,
-                            char *where)
-{
-    const GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_source, where);
-    const GLuint fragment = vertex ? compile(gl, GL_FRAGMENT_SHADER, fragment_source, where) : 0;
-    GLint ok;
-
-    if (!fragment)
-        return 0;
-    const GLuint program = gl->CreateProgram();
-    gl->AttachShader(program, vertex);
-    gl->AttachShader(program, fragment);
-    gl->LinkProgram(program);
-    gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
-    return ok ? program : 0;
-}
-
-static GLuint make_target(renderer *r, int samples)
-{
-    gl_functions *gl = &r->gl;
-    GLuint frame, store[2];
-
-    gl->GenFramebuffers(1, &frame);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
-    gl->GenRenderbuffers(2, store);
-    gl->BindRenderbuffer(GL_RENDERBUFFER, store[0]);
-    gl->RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, r->width, r->height);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, store[0]);
-    gl->BindRenderbuffer(GL_RENDERBUFFER, store[1]);
-    gl->RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, r->width, r->height);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, store[1]);
-    return gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE ? frame : 0;
-}
-
-static GLuint make_buffer(gl_functions *gl, GLenum target, const void *data, size_t size)
-{
-    GLuint buffer;
-
-    gl->GenBuffers(1, &buffer);
-    gl->BindBuffer(target, buffer);
-    gl->BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
-    return buffer;
-}
-
-static void attribute(gl_functions *gl, GLuint index, int size, GLenum type, GLboolean normalized,
-                      size_t stride, size_t offset)
-{
-    gl->EnableVertexAttribArray(index);
-    gl->VertexAttribPointer(index, size, type, normalized, (GLsizei)stride, (const void *)offset);
-}
-
-/*
- * Teeth shine out of the mouth whatever the closed lips hide of them, but only the front ones: the ends of
- * the row would light up in the corners of the mouth.
- */
-static void light_teeth(const fap_mesh *mesh, float *open)
-{
-    const float dark_mm = 15, bright_mm = 5; /* behind the foremost tooth */
-    const float *z = mesh->position + 2 * (size_t)mesh->stride;
-
-    for (int part = FAP_PART_TEETH_UPPER; part <= FAP_PART_TEETH_LOWER; part++) {
-        float front = -1e9f;
-        for (uint32_t i = 0; i < mesh->vertex_count; i++)
-            if (mesh->part[i] == part && z[i] > front)
-                front = z[i];
-        for (uint32_t i = 0; i < mesh->vertex_count; i++)
-            if (mesh->part[i] == part)
-                open[i] =
-                    (0.35f + 0.65f * open[i]) * glm_smoothstep(front - dark_mm, front - bright_mm, z[i]);
-    }
-}
-
-/* Colours, openness and parts never move; positions and normals are sent anew for every picture. */
-static fap_err make_face(renderer *r, GLuint depth_program)
-{
-    gl_functions *gl = &r->gl;
-    const fap_mesh *mesh = fap_bank_mesh(r->bank);
-    still_vertex *still = calloc(mesh->vertex_count, sizeof *still);
-    float *open = calloc(mesh->vertex_count, sizeof *open);
-    fap_err err = FAP_E_NOMEM;
-
+    r->background = gl_program_make(gl, background_vertex_source, background_fragment_source, where);
+    r->program = gl_program_make(gl, face_vertex_source, face_fragment_source, where);
+    if (!r->background || !r->program)
+        return FAP_E_UNSUPPORTED;
     gl->GenVertexArrays(1, &r->background_array);
-    gl->GenVertexArrays(1, &r->face_array);
-    gl->BindVertexArray(r->face_array);
-    r->index_buffer = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, mesh->triangle,
-                                  (size_t)mesh->triangle_count * 3 * sizeof *mesh->triangle);
-    if (still && open)
-        err = occlusion_measure(gl, r->bank, r->index_buffer, depth_program, open);
-    if (err == FAP_OK) {
-        light_teeth(mesh, open);
-        for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-            memcpy(still[i].paint, mesh->colour + 4 * (size_t)i, 4);
-            still[i].open = (uint8_t)(255 * open[i] + 0.5f);
-            still[i].part = mesh->part[i];
-            still[i].head = mesh->head_weight[i];
-        }
-        gl->BindVertexArray(r->face_array);
-        make_buffer(gl, GL_ARRAY_BUFFER, still, mesh->vertex_count * sizeof *still);
-        attribute(gl, ATTRIBUTE_PAINT, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof *still,
-                  offsetof(still_vertex, paint));
-        attribute(gl, ATTRIBUTE_SURFACE, 3, GL_UNSIGNED_BYTE, GL_FALSE, sizeof *still,
-                  offsetof(still_vertex, open));
-        r->moving_buffer = make_buffer(gl, GL_ARRAY_BUFFER, NULL, mesh->vertex_count * sizeof(moving_vertex));
-        attribute(gl, ATTRIBUTE_POSITION, 3, GL_FLOAT, GL_FALSE, sizeof(moving_vertex),
-                  offsetof(moving_vertex, position));
-        attribute(gl, ATTRIBUTE_NORMAL, 3, GL_FLOAT, GL_FALSE, sizeof(moving_vertex),
-                  offsetof(moving_vertex, normal));
-    }
-    free(open);
-    free(still);
+    r->view_projection = gl->GetUniformLocation(r->program, "view_projection");
+    r->eye = gl->GetUniformLocation(r->program, "eye");
+    return overlay_make(&r->over, gl, where);
+}
+
+static fap_err make_face(renderer *r, char *where)
+{
+    const GLuint depth = gl_program_make(&r->gl, depth_vertex_source, depth_fragment_source, where);
+    const fap_err err = depth ? face_array_make(&r->face, &r->gl, r->bank, depth) : FAP_E_UNSUPPORTED;
+
+    r->gl.DeleteProgram(depth);
     return err;
 }
 
-static fap_err make_scene(renderer *r, char *where)
+static fap_err make_scene(renderer *r, int width, int height, char *where)
 {
-    gl_functions *gl = &r->gl;
-    const GLuint depth = build_program(gl, depth_vertex_source, depth_fragment_source, where);
+    const char *missing = gl_load(&r->gl, r->source.get_function);
+    fap_err err;
 
-    r->background = build_program(gl, background_vertex_source, background_fragment_source, where);
-    r->face = build_program(gl, face_vertex_source, face_fragment_source, where);
-    if (!depth || !r->background || !r->face)
+    if (missing) {
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "this OpenGL has no %s", missing);
         return FAP_E_UNSUPPORTED;
-    r->view_projection = gl->GetUniformLocation(r->face, "view_projection");
-    r->eye = gl->GetUniformLocation(r->face, "eye");
-    const fap_err err = make_face(r, depth);
-    if (err != FAP_OK)
+    }
+    r->loaded = 1;
+    if ((err = make_programs(r, where)) || (err = make_face(r, where)))
         return err;
-    r->drawn = make_target(r, SAMPLES);
-    r->resolved = make_target(r, 0);
-    if (r->drawn && r->resolved)
-        return FAP_OK;
-    snprintf(where, FAP_ERROR_TEXT_SIZE, "no framebuffer of %d x %d pixels", r->width, r->height);
-    return FAP_E_LIMIT;
+    err = renderer_resize(r, width, height);
+    if (err)
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "no framebuffer of %d x %d pixels", width, height);
+    return err;
 }
 
-fap_err renderer_create(renderer **out, const fap_bank *bank, int width, int height, char *where)
+static int possible_size(int width, int height)
+{
+    return width >= 1 && height >= 1 && width <= RENDER_MAX_SIZE && height <= RENDER_MAX_SIZE;
+}
+
+static renderer *allocate(const fap_bank *bank)
+{
+    renderer *r = calloc(1, sizeof *r);
+
+    if (r) {
+        r->bank = bank;
+        r->head = head_frame_of(bank);
+    }
+    return r;
+}
+
+static fap_err finish(renderer **out, renderer *r, fap_err err)
+{
+    if (err)
+        renderer_destroy(&r);
+    *out = r;
+    return err;
+}
+
+fap_err renderer_create(renderer **out, const char *name, const fap_bank *bank, int width, int height,
+                        char *where)
 {
     *out = NULL;
     *where = '\0';
-    if (width < 1 || height < 1 || width > RENDER_MAX_SIZE || height > RENDER_MAX_SIZE)
+    if (!possible_size(width, height))
         return FAP_E_ARG;
-    renderer *r = calloc(1, sizeof *r);
+    renderer *r = allocate(bank);
     if (!r)
         return FAP_E_NOMEM;
-    r->bank = bank;
-    r->width = width;
-    r->height = height;
-    r->moving = calloc(fap_bank_mesh(bank)->vertex_count, sizeof *r->moving);
-    fap_err err = r->moving ? gl_context_create(&r->context, &r->gl, where) : FAP_E_NOMEM;
-    if (err == FAP_OK)
-        err = make_scene(r, where);
-    if (err == FAP_OK)
-        *out = r;
-    else
-        renderer_destroy(&r);
-    return err;
+    fap_err err = gl_context_open(&r->own, name, where);
+    if (!err) {
+        const gl_context_driver *d = r->own.driver;
+        r->source = (gl_context_source){ d->get_function, d->make_current, r->own.state };
+        err = make_scene(r, width, height, where);
+    }
+    return finish(out, r, err);
 }
 
-/* Deleting the context deletes what it holds. */
+fap_err renderer_create_on(renderer **out, const gl_context_source *source, const fap_bank *bank, int width,
+                           int height, char *where)
+{
+    *out = NULL;
+    *where = '\0';
+    if (!possible_size(width, height))
+        return FAP_E_ARG;
+    renderer *r = allocate(bank);
+    if (!r)
+        return FAP_E_NOMEM;
+    r->source = *source;
+    return finish(out, r, make_scene(r, width, height, where));
+}
+
+static void make_current(const renderer *r)
+{
+    if (r->source.make_current)
+        r->source.make_current(r->source.user);
+}
+
+static void delete_targets(renderer *r)
+{
+    gl_target_delete(&r->gl, &r->drawn);
+    gl_target_delete(&r->gl, &r->resolved);
+    r->width = r->height = 0;
+}
+
+static void delete_scene(renderer *r)
+{
+    make_current(r);
+    delete_targets(r);
+    face_array_delete(&r->face, &r->gl);
+    overlay_delete(&r->over, &r->gl);
+    r->gl.DeleteProgram(r->program);
+    r->gl.DeleteProgram(r->background);
+    r->gl.DeleteVertexArrays(1, &r->background_array);
+}
+
 void renderer_destroy(renderer **r)
 {
     if (!*r)
         return;
-    gl_context_destroy((*r)->context);
-    free((*r)->moving);
+    if ((*r)->loaded)
+        delete_scene(*r);
+    gl_context_close(&(*r)->own);
     free(*r);
     *r = NULL;
 }
 
+fap_err renderer_resize(renderer *r, int width, int height)
+{
+    if (!possible_size(width, height))
+        return FAP_E_ARG;
+    if (width == r->width && height == r->height)
+        return FAP_OK;
+    make_current(r);
+    delete_targets(r);
+    if (!gl_target_make(&r->gl, &r->drawn, width, height, SAMPLES, 1) ||
+        !gl_target_make(&r->gl, &r->resolved, width, height, 0, 0)) {
+        delete_targets(r);
+        return FAP_E_LIMIT;
+    }
+    r->width = width;
+    r->height = height;
+    return FAP_OK;
+}
+
 const char *renderer_description(const renderer *r)
 {
+    make_current(r);
     return (const char *)r->gl.GetString(GL_RENDERER);
 }
 
-static void send_pose(renderer *r, const float *position, const float *normal)
+const char *renderer_gl_name(int i)
 {
-    const fap_mesh *mesh = fap_bank_mesh(r->bank);
-    const size_t stride = mesh->stride;
-
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        r->moving[i] = (moving_vertex){ { position[i], position[stride + i], position[2 * stride + i] },
-                                        { normal[i], normal[stride + i], normal[2 * stride + i] } };
-    r->gl.BindBuffer(GL_ARRAY_BUFFER, r->moving_buffer);
-    r->gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof *r->moving), r->moving,
-                     GL_STREAM_DRAW);
+    return gl_context_drivers[i] ? gl_context_drivers[i]->name : NULL;
 }
 
-static void draw_scene(renderer *r, render_camera camera)
-{
-    gl_functions *gl = &r->gl;
-    mat4 view_projection;
-    vec3 eye;
+/* --- drawing --- */
 
-    gl->BindFramebuffer(GL_FRAMEBUFFER, r->drawn);
-    gl->Viewport(0, 0, r->width, r->height);
-    gl->Clear(GL_DEPTH_BUFFER_BIT);
+static render_lens lens_of(const renderer *r, const render_view *view)
+{
+    render_lens c;
+
+    camera_place(&c, &r->head, view, (float)r->width / (float)r->height);
+    return c;
+}
+
+static void draw_background(const renderer *r)
+{
+    const gl_functions *gl = &r->gl;
+
     gl->Disable(GL_DEPTH_TEST);
     gl->Disable(GL_CULL_FACE);
     gl->UseProgram(r->background);
     gl->BindVertexArray(r->background_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
 
-    camera_place(r->bank, camera, (float)r->width / (float)r->height, view_projection, eye);
+static void draw_face(const renderer *r, const render_lens *c)
+{
+    const gl_functions *gl = &r->gl;
+
+    gl->UseProgram(r->program);
+    gl->UniformMatrix4fv(r->view_projection, 1, GL_FALSE, c->view_projection[0]);
+    gl->Uniform3fv(r->eye, 1, c->eye);
+    face_array_draw(&r->face, gl);
+}
+
+/* A window's toolkit may have left any state behind: what matters here is set. */
+static void draw_scene(renderer *r, const render_scene *scene)
+{
+    const gl_functions *gl = &r->gl;
+    render_lens c = lens_of(r, &scene->view);
+
+    gl->BindFramebuffer(GL_FRAMEBUFFER, r->drawn.frame);
+    gl->Viewport(0, 0, r->width, r->height);
+    gl->Disable(GL_SCISSOR_TEST);
+    gl->Disable(GL_BLEND);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+    draw_background(r);
     gl->Enable(GL_DEPTH_TEST);
     gl->Enable(GL_CULL_FACE); /* the back of the head is half of the triangles */
-    gl->UseProgram(r->face);
-    gl->UniformMatrix4fv(r->view_projection, 1, GL_FALSE, view_projection[0]);
-    gl->Uniform3fv(r->eye, 1, eye);
-    gl->BindVertexArray(r->face_array);
-    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * fap_bank_mesh(r->bank)->triangle_count), GL_UNSIGNED_INT,
-                     NULL);
+    draw_face(r, &c);
+    if (scene->wireframe)
+        overlay_draw_wire(&r->over, gl, &r->face, &c);
+    if (scene->mark_count)
+        overlay_draw_marks(&r->over, gl, scene->mark, scene->mark_count, &c, r->height);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Disable(GL_CULL_FACE);
+}
+
+static void copy(const renderer *r, GLuint from, GLuint to, int x, int y)
+{
+    r->gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from);
+    r->gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+    r->gl.BlitFramebuffer(0, 0, r->width, r->height, x, y, x + r->width, y + r->height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
+}
+
+/* Leaves the picture in the target that can be read. */
+static fap_err draw_resolved(renderer *r, const render_scene *scene)
+{
+    if (!r->width)
+        return FAP_E_ARG;
+    make_current(r);
+    const fap_err err =
+        face_array_send(&r->face, &r->gl, fap_bank_mesh(r->bank), scene->position, scene->normal);
+    if (err)
+        return err;
+    draw_scene(r, scene);
+    copy(r, r->drawn.frame, r->resolved.frame, 0, 0);
+    return FAP_OK;
 }
 
 /* OpenGL's rows start at the bottom. */
@@ -278,24 +285,35 @@ static void turn_over(image *im)
     }
 }
 
-fap_err renderer_draw(renderer *r, const float *position, const float *normal, render_camera camera,
-                      image *out)
+fap_err renderer_draw(renderer *r, const render_scene *scene, image *out)
 {
-    gl_functions *gl = &r->gl;
+    const gl_functions *gl = &r->gl;
 
     if (out->width != r->width || out->height != r->height)
         return FAP_E_ARG;
-    gl_context_make_current(r->context);
-    send_pose(r, position, normal);
-    draw_scene(r, camera);
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, r->drawn);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, r->resolved);
-    gl->BlitFramebuffer(0, 0, r->width, r->height, 0, 0, r->width, r->height, GL_COLOR_BUFFER_BIT,
-                        GL_NEAREST);
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, r->resolved);
+    const fap_err err = draw_resolved(r, scene);
+    if (err)
+        return err;
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, r->resolved.frame);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl->ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, out->rgba);
     turn_over(out);
     return gl->GetError() == GL_NO_ERROR ? FAP_OK : FAP_E_IO;
+}
+
+fap_err renderer_show(renderer *r, const render_scene *scene, render_target target)
+{
+    const fap_err err = draw_resolved(r, scene);
+    if (err)
+        return err;
+    copy(r, r->resolved.frame, target.framebuffer, target.x, target.y);
+    r->gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    return r->gl.GetError() == GL_NO_ERROR ? FAP_OK : FAP_E_IO;
+}
+
+int renderer_project(const renderer *r, const render_view *view, const float place_mm[3], float pixel[3])
+{
+    const render_lens c = lens_of(r, view);
+    return r->width && camera_project(&c, place_mm, r->width, r->height, pixel);
 }
 #endif

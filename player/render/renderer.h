@@ -1,47 +1,93 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * Draws one posed face offscreen with OpenGL 3.3 core into its own framebuffer object. The picture depends on its
- * arguments alone: the same ones give the same bits on one machine, and differ by a rounding on another.
+ * Draws one posed face with OpenGL 3.3 core, always into its own framebuffer object: read back as a picture, or copied to a
+ * window. The picture depends on its arguments alone: the same ones give the same bits on one machine, whichever way they
+ * are drawn, and differ by a rounding on another.
+ *
+ * A renderer belongs to the thread that made it.
  */
 #ifndef PLAYER_RENDER_RENDERER_H
 #define PLAYER_RENDER_RENDERER_H
 
+#include <stdint.h>
+
 #include <fap/bank.h>
 
 #include "player/render/image.h"
+#include "player/render/view.h"
 
 typedef struct renderer renderer;
 
-typedef enum render_camera {
-    CAMERA_FRONT,
-    CAMERA_LEFT,
-    CAMERA_RIGHT,
-    CAMERA_THREE_QUARTER,
-    CAMERA_COUNT
-} render_camera;
-
-/* "front", "left", "right", "three-quarter"; -1: no such camera. */
-int render_camera_by_name(const char *name);
-const char *render_camera_name(render_camera camera);
-
 enum { RENDER_MAX_SIZE = 8192 };
 
+/* A context that the caller owns, OpenGL 3.3 core or later; it must outlive the renderer. */
+typedef struct gl_context_source {
+    void (*(*get_function)(const char *name))(void); /* as glfwGetProcAddress() */
+    void (*make_current)(void *user);                /* NULL: the caller keeps it current */
+    void *user;
+} gl_context_source;
+
+/* A place marked by a disc: a feature point. */
+typedef struct render_mark {
+    float place_mm[3];
+    uint8_t rgb[3];
+} render_mark;
+
+/* What is drawn. Arrays are borrowed for the call. */
+typedef struct render_scene {
+    const float *position, *normal; /* a pose, as fap_face_pose() gives them */
+    render_view view;
+    int wireframe;           /* the edges of the triangles over the face */
+    const render_mark *mark; /* over the face; those behind it are fainter */
+    int mark_count;
+} render_scene;
+
 /*
+ * @gl     "osmesa", "egl": how to draw without a window; NULL: the first way that works here
  * @bank   the face; read while drawing, so it must outlive the renderer
  * @width  and @height: pixels, 1 to RENDER_MAX_SIZE
  * FAP_E_UNSUPPORTED: this build has no OpenGL, or none can be had here; @where (FAP_ERROR_TEXT_SIZE bytes) says which.
  */
-fap_err renderer_create(renderer **out, const fap_bank *bank, int width, int height, char *where);
+fap_err renderer_create(renderer **out, const char *gl, const fap_bank *bank, int width, int height,
+                        char *where);
+/* The same with a context that is not the renderer's, a window's for example, which is current now. */
+fap_err renderer_create_on(renderer **out, const gl_context_source *source, const fap_bank *bank, int width,
+                           int height, char *where);
+/* Frees what it has made in the context; accepts NULL in @r. */
 void renderer_destroy(renderer **r);
 
+/* Another size, within the same limits. After a failure the renderer has no size until a call succeeds. */
+fap_err renderer_resize(renderer *r, int width, int height);
+
 /*
- * Draws a pose (arrays as fap_face_pose() gives them) and reads it back.
+ * Draws and reads back.
  * @out  an image of the renderer's size; see image_create()
  */
-fap_err renderer_draw(renderer *r, const float *position, const float *normal, render_camera camera,
-                      image *out);
+fap_err renderer_draw(renderer *r, const render_scene *scene, image *out);
 
-/* GL_RENDERER and GL_VERSION of the context, for reports: pictures differ by these. */
+/* Where in a framebuffer of the context a picture goes; 0 is the window. Rows count from the bottom, as OpenGL's. */
+typedef struct render_target {
+    unsigned framebuffer;
+    int x, y;
+} render_target;
+
+/*
+ * Draws into @target without reading back, in the renderer's size. Leaves @target bound for drawing, and depth test, culling
+ * and blending off. The caller swaps.
+ */
+fap_err renderer_show(renderer *r, const render_scene *scene, render_target target);
+
+/*
+ * Where a place appears, for labels and for what the mouse points at.
+ * @pixel  x and y from the top left corner, and the depth from -1 (near) to 1 (far)
+ * @return 0: behind the camera
+ */
+int renderer_project(const renderer *r, const render_view *view, const float place_mm[3], float pixel[3]);
+
+/* GL_RENDERER of the context, for reports: pictures differ by it. */
 const char *renderer_description(const renderer *r);
+
+/* The names that renderer_create() takes in this build, in the order they are tried; NULL past the last. */
+const char *renderer_gl_name(int i);
 
 #endif

@@ -1,14 +1,28 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* The renderer of a build without OpenGL: it says so. */
-#ifndef HAVE_OSMESA
+#ifndef HAVE_GL
 #include "player/render/renderer.h"
 
-fap_err renderer_create(renderer **out, const fap_bank *bank, int width, int height, char *where)
+static fap_err none(renderer **out, char *where)
 {
-    (void)bank, (void)width, (void)height;
     *out = NULL;
-    snprintf(where, FAP_ERROR_TEXT_SIZE, "built without OSMesa: install libosmesa6-dev and build again");
+    snprintf(where, FAP_ERROR_TEXT_SIZE,
+             "built without OpenGL: install libosmesa6-dev or libegl-dev and build again");
     return FAP_E_UNSUPPORTED;
+}
+
+fap_err renderer_create(renderer **out, const char *gl, const fap_bank *bank, int width, int height,
+                        char *where)
+{
+    (void)gl, (void)bank, (void)width, (void)height;
+    return none(out, where);
+}
+
+fap_err renderer_create_on(renderer **out, const gl_context_source *source, const fap_bank *bank, int width,
+                           int height, char *where)
+{
+    (void)source, (void)bank, (void)width, (void)height;
+    return none(out, where);
 }
 
 void renderer_destroy(renderer **r)
@@ -16,17 +30,40 @@ void renderer_destroy(renderer **r)
     *r = NULL;
 }
 
-fap_err renderer_draw(renderer *r, const float *position, const float *normal, render_camera camera,
-                      image *out)
+fap_err renderer_resize(renderer *r, int width, int height)
 {
-    (void)r, (void)position, (void)normal, (void)camera, (void)out;
+    (void)r, (void)width, (void)height;
     return FAP_E_UNSUPPORTED;
+}
+
+fap_err renderer_draw(renderer *r, const render_scene *scene, image *out)
+{
+    (void)r, (void)scene, (void)out;
+    return FAP_E_UNSUPPORTED;
+}
+
+fap_err renderer_show(renderer *r, const render_scene *scene, render_target target)
+{
+    (void)r, (void)scene, (void)target;
+    return FAP_E_UNSUPPORTED;
+}
+
+int renderer_project(const renderer *r, const render_view *view, const float place_mm[3], float pixel[3])
+{
+    (void)r, (void)view, (void)place_mm, (void)pixel;
+    return 0;
 }
 
 const char *renderer_description(const renderer *r)
 {
     (void)r;
     return "none";
+}
+
+const char *renderer_gl_name(int i)
+{
+    (void)i;
+    return NULL;
 }
 #else
 typedef int renderer_none_is_empty;

@@ -18,7 +18,7 @@ typedef struct stage {
     float *position, *normal;
 } stage;
 
-static void open_stage(stage *s)
+static void open_stage_with(stage *s, const char *gl)
 {
     char where[FAP_ERROR_TEXT_SIZE];
 
@@ -27,10 +27,15 @@ static void open_stage(stage *s)
     assert_int_equal(fap_face_open(&s->face, s->bank, NULL), FAP_OK);
     s->position = aligned_alloc(32, 3 * sizeof(float) * fap_face_stride(s->face));
     s->normal = aligned_alloc(32, 3 * sizeof(float) * fap_face_stride(s->face));
-    const fap_err err = renderer_create(&s->renderer, s->bank, SIZE, SIZE, where);
+    const fap_err err = renderer_create(&s->renderer, gl, s->bank, SIZE, SIZE, where);
     if (err == FAP_E_UNSUPPORTED)
         skip();
     assert_int_equal(err, FAP_OK);
+}
+
+static void open_stage(stage *s)
+{
+    open_stage_with(s, NULL);
 }
 
 static void close_stage(stage *s)
@@ -43,17 +48,31 @@ static void close_stage(stage *s)
     fap_bank_close(&s->bank);
 }
 
-static image picture(stage *s, int jaw, render_camera camera)
+static render_scene scene_of(stage *s, int jaw)
 {
     fap_frame frame = { 0 };
-    image im;
 
     frame.state[3] = FAP_CODED;
     frame.value[3] = jaw;
     fap_face_pose(s->face, &frame, s->position, s->normal);
-    assert_int_equal(image_create(&im, SIZE, SIZE), FAP_OK);
-    assert_int_equal(renderer_draw(s->renderer, s->position, s->normal, camera, &im), FAP_OK);
+    return (render_scene){ s->position, s->normal, .view = render_view_of(CAMERA_FRONT) };
+}
+
+static image draw(stage *s, const render_scene *scene, int size)
+{
+    image im;
+
+    assert_int_equal(image_create(&im, size, size), FAP_OK);
+    assert_int_equal(renderer_draw(s->renderer, scene, &im), FAP_OK);
     return im;
+}
+
+static image picture(stage *s, int jaw, render_camera camera)
+{
+    render_scene scene = scene_of(s, jaw);
+
+    scene.view = render_view_of(camera);
+    return draw(s, &scene, SIZE);
 }
 
 TEST(renderer, same_pose_gives_same_bits_and_another_pose_another_picture)
@@ -98,6 +117,164 @@ TEST(renderer, every_camera_frames_the_head)
     close_stage(&s);
 }
 
+static size_t pixels_that_differ(const image *a, const image *b)
+{
+    image_difference d;
+
+    assert_int_equal(image_compare(a, b, 2, &d, NULL), FAP_OK);
+    return d.far_count;
+}
+
+TEST(renderer, every_context_draws_the_same_picture)
+{
+    image first = { 0 };
+
+    for (int i = 0; renderer_gl_name(i); i++) {
+        stage s;
+        open_stage_with(&s, renderer_gl_name(i));
+        image im = picture(&s, 300, CAMERA_THREE_QUARTER);
+        close_stage(&s);
+        if (!i) {
+            first = im;
+            continue;
+        }
+        image_difference d;
+        assert_int_equal(image_compare(&first, &im, 2, &d, NULL), FAP_OK);
+        assert_true(image_same(&d));
+        image_free(&im);
+    }
+    image_free(&first);
+}
+
+TEST(renderer, a_context_that_is_not_built_in_is_named)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    fap_bank *bank;
+    renderer *r;
+
+    assert_int_equal(fap_bank_builtin(&bank, NULL), FAP_OK);
+    assert_int_equal(renderer_create(&r, "vulkan", bank, SIZE, SIZE, where), FAP_E_UNSUPPORTED);
+    assert_null(r);
+    assert_true(!renderer_gl_name(0) || strstr(where, "vulkan"));
+    fap_bank_close(&bank);
+}
+
+TEST(renderer, two_at_a_time_do_not_disturb_each_other)
+{
+    stage a, b;
+
+    open_stage(&a);
+    open_stage(&b);
+    image first = picture(&a, 200, CAMERA_FRONT), other = picture(&b, 200, CAMERA_FRONT);
+    close_stage(&b);
+    image again = picture(&a, 200, CAMERA_FRONT);
+    assert_memory_equal(first.rgba, other.rgba, SIZE * SIZE * 4);
+    assert_memory_equal(first.rgba, again.rgba, SIZE * SIZE * 4);
+    image_free(&first);
+    image_free(&other);
+    image_free(&again);
+    close_stage(&a);
+}
+
+TEST(renderer, another_size_and_back_is_the_same_picture)
+{
+    stage s;
+
+    open_stage(&s);
+    const render_scene scene = scene_of(&s, 0);
+    image before = draw(&s, &scene, SIZE);
+    assert_int_equal(renderer_resize(s.renderer, 2 * SIZE, 2 * SIZE), FAP_OK);
+    assert_int_equal(renderer_draw(s.renderer, &scene, &before), FAP_E_ARG);
+    image large = draw(&s, &scene, 2 * SIZE);
+    assert_int_equal(renderer_resize(s.renderer, 0, SIZE), FAP_E_ARG);
+    assert_int_equal(renderer_resize(s.renderer, SIZE, SIZE), FAP_OK);
+    image after = draw(&s, &scene, SIZE);
+    assert_memory_equal(before.rgba, after.rgba, SIZE * SIZE * 4);
+    image_free(&before);
+    image_free(&large);
+    image_free(&after);
+    close_stage(&s);
+}
+
+TEST(renderer, wireframe_and_marks_are_seen_and_leave_nothing_behind)
+{
+    stage s;
+
+    open_stage(&s);
+    render_scene scene = scene_of(&s, 0);
+    image plain = draw(&s, &scene, SIZE);
+    scene.wireframe = 1;
+    image wire = draw(&s, &scene, SIZE);
+    const fap_bank_point *tip = fap_bank_point_get(s.bank, fap_point_by_name("9.3"));
+    const render_mark mark = { { tip->position_mm[0], tip->position_mm[1], tip->position_mm[2] },
+                               { 0, 255, 0 } };
+    scene.wireframe = 0;
+    scene.mark = &mark;
+    scene.mark_count = 1;
+    image marked = draw(&s, &scene, SIZE);
+    scene.mark_count = 0;
+    image again = draw(&s, &scene, SIZE);
+    assert_true(pixels_that_differ(&plain, &wire) > SIZE);
+    assert_in_range(pixels_that_differ(&plain, &marked), 4, 64);
+    assert_memory_equal(plain.rgba, again.rgba, SIZE * SIZE * 4);
+    image_free(&plain);
+    image_free(&wire);
+    image_free(&marked);
+    image_free(&again);
+    close_stage(&s);
+}
+
+TEST(renderer, a_mark_is_drawn_where_its_place_is_projected_to)
+{
+    stage s;
+    float at[3];
+
+    open_stage(&s);
+    render_scene scene = scene_of(&s, 0);
+    const fap_bank_point *tip = fap_bank_point_get(s.bank, fap_point_by_name("9.3"));
+    const render_mark mark = { { tip->position_mm[0], tip->position_mm[1], tip->position_mm[2] },
+                               { 0, 255, 0 } };
+    scene.view = (render_view){ .yaw_degrees = 25, .pitch_degrees = 20, .distance = 0.5f, .right = 0.1f };
+    scene.mark = &mark;
+    scene.mark_count = 1;
+    image im = draw(&s, &scene, SIZE);
+    assert_true(renderer_project(s.renderer, &scene.view, mark.place_mm, at));
+    const uint8_t *p = im.rgba + 4 * ((int)at[1] * SIZE + (int)at[0]);
+    assert_true(p[1] > 200 && p[0] < 60 && p[2] < 60);
+    image_free(&im);
+    close_stage(&s);
+}
+
+static int skin_pixels(const image *im)
+{
+    int count = 0;
+
+    for (int y = 0; y < im->height; y++)
+        for (int x = 0; x < im->width; x++)
+            count += is_skin(im, x, y);
+    return count;
+}
+
+TEST(renderer, a_closer_view_shows_more_skin_and_a_shifted_one_less)
+{
+    stage s;
+
+    open_stage(&s);
+    render_scene scene = scene_of(&s, 0);
+    image whole = draw(&s, &scene, SIZE);
+    scene.view.distance = 0.5f;
+    image close = draw(&s, &scene, SIZE);
+    scene.view = render_view_of(CAMERA_FRONT);
+    scene.view.right = 1;
+    image beside = draw(&s, &scene, SIZE);
+    assert_true(skin_pixels(&close) > 2 * skin_pixels(&whole));
+    assert_true(skin_pixels(&beside) < skin_pixels(&whole));
+    image_free(&whole);
+    image_free(&close);
+    image_free(&beside);
+    close_stage(&s);
+}
+
 TEST(renderer, cameras_have_names)
 {
     for (int camera = 0; camera < CAMERA_COUNT; camera++)
@@ -112,8 +289,46 @@ TEST(renderer, refuses_impossible_sizes)
     renderer *r;
 
     assert_int_equal(fap_bank_builtin(&bank, NULL), FAP_OK);
-    assert_int_not_equal(renderer_create(&r, bank, 0, 100, where), FAP_OK);
+    assert_int_not_equal(renderer_create(&r, NULL, bank, 0, 100, where), FAP_OK);
     assert_null(r);
-    assert_int_not_equal(renderer_create(&r, bank, 100, RENDER_MAX_SIZE + 1, where), FAP_OK);
+    assert_int_not_equal(renderer_create(&r, NULL, bank, 100, RENDER_MAX_SIZE + 1, where), FAP_OK);
+    assert_null(r);
     fap_bank_close(&bank);
 }
+
+#ifdef HAVE_GL
+#include "player/render/context.h"
+#include "player/render/gl_objects.h"
+
+/* A caller with a context of its own, as a window has one. */
+TEST(renderer, shows_into_a_framebuffer_of_the_caller_what_it_would_have_read_back)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    gl_context context;
+    gl_functions gl;
+    gl_target window;
+    stage s;
+
+    open_stage(&s);
+    const render_scene scene = scene_of(&s, 100);
+    image expected = draw(&s, &scene, SIZE), shown;
+    assert_int_equal(gl_context_open(&context, NULL, where), FAP_OK);
+    assert_null(gl_load(&gl, context.driver->get_function));
+    assert_true(gl_target_make(&gl, &window, SIZE, SIZE, 0, 0));
+    renderer_destroy(&s.renderer);
+    context.driver->make_current(context.state);
+    const gl_context_source source = { .get_function = context.driver->get_function };
+    assert_int_equal(renderer_create_on(&s.renderer, &source, s.bank, SIZE, SIZE, where), FAP_OK);
+    assert_int_equal(renderer_show(s.renderer, &scene, (render_target){ window.frame, 0, 0 }), FAP_OK);
+    assert_int_equal(image_create(&shown, SIZE, SIZE), FAP_OK);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, window.frame);
+    for (int y = 0; y < SIZE; y++)
+        gl.ReadPixels(0, SIZE - 1 - y, SIZE, 1, GL_RGBA, GL_UNSIGNED_BYTE, shown.rgba + 4 * y * SIZE);
+    assert_memory_equal(shown.rgba, expected.rgba, SIZE * SIZE * 4);
+    gl_target_delete(&gl, &window);
+    close_stage(&s);
+    gl_context_close(&context);
+    image_free(&expected);
+    image_free(&shown);
+}
+#endif

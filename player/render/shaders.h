@@ -16,6 +16,37 @@ static const char depth_vertex_source[] =
 static const char depth_fragment_source[] = "#version 330 core\n"
                                             "void main() {}\n";
 
+/* The edges of the triangles. */
+static const char wire_fragment_source[] = "#version 330 core\n"
+                                           "out vec4 colour;\n"
+                                           "void main() { colour = vec4(0.06, 0.14, 0.20, 1); }\n";
+
+/* A disc of @size pixels with a dark rim, drawn @nearer to the eye by a share of the distance. */
+static const char mark_vertex_source[] =
+    "#version 330 core\n"
+    "layout(location = 0) in vec3 position;\n"
+    "layout(location = 1) in vec3 rgb;\n"
+    "uniform mat4 view_projection;\n"
+    "uniform vec3 eye;\n"
+    "uniform float size, nearer;\n"
+    "out vec3 tint;\n"
+    "void main() {\n"
+    "    tint = rgb;\n"
+    "    gl_Position = view_projection * vec4(mix(position, eye, nearer), 1);\n"
+    "    gl_PointSize = size;\n"
+    "}\n";
+
+static const char mark_fragment_source[] =
+    "#version 330 core\n"
+    "in vec3 tint;\n"
+    "uniform float size, alpha;\n"
+    "out vec4 colour;\n"
+    "void main() {\n"
+    "    float r = length(gl_PointCoord - 0.5) * size;\n"
+    "    float inside = clamp(0.5 * size - r, 0, 1);\n"
+    "    colour = vec4(tint * clamp(0.5 * size - r - 0.5, 0.15, 1), alpha * inside);\n"
+    "}\n";
+
 /* One triangle over the whole picture; no vertex buffer. */
 static const char background_vertex_source[] =
     "#version 330 core\n"

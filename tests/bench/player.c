@@ -41,7 +41,7 @@ static int open_stage(stage *s)
     s->position = aligned_alloc(32, size);
     s->normal = aligned_alloc(32, size);
     return s->position && s->normal && image_create(&s->picture, SIZE, SIZE) == FAP_OK &&
-           renderer_create(&s->renderer, s->bank, SIZE, SIZE, where) == FAP_OK;
+           renderer_create(&s->renderer, NULL, s->bank, SIZE, SIZE, where) == FAP_OK;
 }
 
 /* A talking head's load: jaw, lips, brows, lids and head in motion. */
@@ -60,12 +60,14 @@ static void pose(stage *s, int i)
 
 static double seconds_per_frame(stage *s, int moving)
 {
+    const render_scene scene = { s->position, s->normal, .view = render_view_of(CAMERA_FRONT) };
+
     pose(s, 0);
     const double start = bench_now_s();
     for (int i = 0; i < FRAMES; i++) {
         if (moving)
             pose(s, i);
-        if (renderer_draw(s->renderer, s->position, s->normal, CAMERA_FRONT, &s->picture) != FAP_OK)
+        if (renderer_draw(s->renderer, &scene, &s->picture) != FAP_OK)
             return -1;
     }
     return (bench_now_s() - start) / FRAMES;

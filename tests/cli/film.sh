@@ -17,7 +17,7 @@ expect 1 $play $stream -o "$T/no/x.csv"
 
 status=0
 $play $stream -o "$T/a.png" >"$T/out" 2>"$T/err" || status=$?
-[ "$status" -eq 3 ] && skip "no OSMesa in this build"
+[ "$status" -eq 3 ] && skip "no OpenGL in this build"
 mkdir "$T/row"
 expect 0 $play $stream --frames 1: -o "$T/row/%02d.png"
 [ "$(ls "$T/row")" = "$(printf '01.png\n02.png')" ] || fail "frames 1 and 2 are called $(ls "$T/row")"

@@ -5,7 +5,7 @@ play="$B/fapplay --bank builtin --size 64x64"
 
 status=0
 $play tests/golden/blink/stream.fap --golden "$T/g" --update >"$T/out" 2>"$T/err" || status=$?
-[ "$status" -eq 3 ] && skip "no OSMesa in this build"
+[ "$status" -eq 3 ] && skip "no OpenGL in this build"
 [ "$status" -eq 0 ] || fail "--update: exit $status: $(cat "$T/err")"
 [ "$(ls "$T/g")" = "$(printf '0000.png\n0001.png\n0002.png')" ] || fail "--update left $(ls "$T/g")"
 

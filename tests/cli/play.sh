@@ -12,7 +12,7 @@ expect 0 $play -o "$T/none.null"
 "$B/fapplay" --help | grep -q osmesa || true
 status=0
 $play --frames 10:11 -o "$T/a.png" >"$T/out" 2>"$T/err" || status=$?
-[ "$status" -eq 3 ] && skip "no OSMesa in this build"
+[ "$status" -eq 3 ] && skip "no OpenGL in this build"
 [ "$status" -eq 0 ] || fail "a picture: exit $status: $(cat "$T/err")"
 expect 0 $play --frames 10:11 -o "$T/b.png"
 cmp -s "$T/a.png" "$T/b.png" || fail "two runs differ"
