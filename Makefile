@@ -26,6 +26,7 @@ EGL     := $(call has,egl)
 GL      := $(OSMESA)$(EGL)
 PNG     := $(call has,libpng)
 SNDFILE := $(call has,sndfile)
+SDL2    := $(call has,sdl2)
 JPEG    := $(call has,libjpeg)
 ZLIB    := $(call has,zlib)
 CMOCKA  := $(call has,cmocka)
@@ -47,11 +48,15 @@ obj       = $(patsubst %.c,$(B)/%.o,$(1))
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
 RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
+PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2)
 DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHAVE_EGL) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \
-            $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB)
+            $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2)
 
 TOOLS    := $(B)/fapenc $(B)/fapplay $(B)/fapbank
 LIBS     := $(B)/libfap.a $(B)/libfap-studio.a $(B)/libfap.so.$(VERSION)
+
+# Headers of libraries are not ours to warn about, and one driver file each includes them.
+$(B)/player/audio/device_sdl.o: FAP_CFLAGS += $(if $(SDL2),$(patsubst -I%,-isystem %,$(shell $(PKG) --cflags sdl2)))
 
 COMPILE   = mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(DEFS) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 LINK      = mkdir -p $(@D) && $(CC) $(SAN) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o %.a,$^)
@@ -91,7 +96,7 @@ $(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(BASE)
 $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC)))
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
+	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
 $(B)/libfap-databank.a: $(call obj,$(filter-out databank/main.c,$(BANK_SRC)))
 $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
@@ -100,7 +105,7 @@ $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $
 # --- tests ---------------------------------------------------------------------------------------------------------
 FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildcard tests/fuzz/*.c)))
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
-ALL_LIBS := $(RENDER_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) -lm
+ALL_LIBS := $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
 
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)

@@ -14,7 +14,7 @@
 #include "player/plan.h"
 #include "player/render/renderer.h"
 #include "player/run.h"
-#include "player/sound.h"
+#include "player/audio/sound_file.h"
 #include "player/timeline.h"
 
 typedef struct player {
