@@ -14,7 +14,10 @@ PKG     ?= pkg-config
 CFLAGS  ?= $(if $(filter asan,$(config)),-O1 -g,-O2 -g)
 
 SAN        := $(if $(filter asan,$(config)),-fsanitize=address -fsanitize=undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+# No fused multiply-add: the same bits on every machine. Nobody asks errno or traps about a square root: loops with one can be
+# vectors, with the same bits.
 FAP_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wvla -ffp-contract=off \
+              -fno-math-errno -fno-trapping-math \
               -fPIC -fvisibility=hidden -Iinclude -Ilib -I. -I$(B) -MMD -MP $(if $(WERROR),-Werror) $(SAN)
 
 has = $(shell $(PKG) --exists $(1) 2>/dev/null && echo 1)

@@ -7,6 +7,7 @@
 
 #include "bank/face.h"
 #include "bank/ga.h"
+#include "base/lanes.h"
 
 const fap_blend_method *const fap_blend_methods[] = {
     &fap_blend_zhu, &fap_blend_qp, &fap_blend_ga, &fap_blend_pca, &fap_blend_rbf, &fap_blend_fat, NULL
@@ -57,12 +58,7 @@ float fap_blend_importance(int row)
 
 float fap_face_row_motion(const fap_face *face, int row, const float *weight)
 {
-    const float *motion = face->motion + (size_t)row * (size_t)face->key_count;
-    float sum = 0;
-
-    for (int k = 0; k < face->key_count; k++)
-        sum += motion[k] * weight[k];
-    return sum;
+    return fap_lanes_dot(face->motion + (size_t)row * (size_t)face->key_count, weight, face->key_count);
 }
 
 float fap_blend_row_motion(const fap_face *face, int row, const float *weight)
@@ -100,14 +96,14 @@ void fap_blend_copy_to_regions(const fap_face *face, float *weight)
 
 float fap_blend_fitness(const fap_face *face, const float *weight)
 {
-    float target[FAP_ROWS] = { 0 }, got[FAP_ROWS] = { 0 };
+    float target[3][FAP_GA_POINTS] = { 0 }, got[3][FAP_GA_POINTS] = { 0 };
 
     for (int r = 0; r < face->row_count; r++) {
         const int row = face->row[r];
-        target[row] = fap_blend_row_target(face, row);
-        got[row] = fap_blend_row_motion(face, row, weight);
+        target[row % 3][row / 3] = fap_blend_row_target(face, row);
+        got[row % 3][row / 3] = fap_blend_row_motion(face, row, weight);
     }
-    return fap_ga_cosine(target, got, FAP_ROWS);
+    return fap_ga_cosine(target[0], got[0], FAP_GA_POINTS);
 }
 
 float fap_blend_squared_error(const fap_face *face, const float *weight)
@@ -121,10 +117,16 @@ float fap_blend_squared_error(const fap_face *face, const float *weight)
     return sum;
 }
 
-static void add_squares(const fap_face *face, const float *a, float share, float *sum)
+static void add_squares(const fap_face *face, const float *a, float share, float *restrict sum)
 {
-    for (int k = 0; k < face->key_count; k++)
-        sum[k] += share * (a[k] * a[k]);
+    const int n = face->key_count;
+    int i = 0;
+
+    for (; i + FAP_LANES <= n; i += FAP_LANES)
+        for (int k = 0; k < FAP_LANES; k++)
+            sum[i + k] += share * (a[i + k] * a[i + k]);
+    for (; i < n; i++)
+        sum[i] += share * (a[i] * a[i]);
 }
 
 void fap_blend_beside(const fap_face *face, int region, const float *matrix, size_t stride, float *beside)

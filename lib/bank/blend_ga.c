@@ -25,7 +25,7 @@ typedef struct state {
 typedef struct aim {
     int commanded, count; /* commanded rows first */
     uint16_t row[FAP_ROWS];
-    float target[FAP_ROWS], weight[FAP_ROWS];
+    float target[3 * FAP_GA_POINTS], weight[3 * FAP_GA_POINTS]; /* 0 behind count */
 } aim;
 
 static int open_ga(void *user, const fap_face *face)
@@ -64,7 +64,7 @@ static float share_of(const fap_face *face, int region, int row)
  */
 static void take_aim(const fap_face *face, int region, const float *weight, aim *a)
 {
-    a->count = 0;
+    memset(a, 0, sizeof *a);
     for (int r = 0; r < face->row_count; r++) {
         const int row = face->row[r];
         if (share_of(face, region, row) > 0)
@@ -158,7 +158,7 @@ static void improve(state *s, fap_face *face, int region)
     seed_population(&s->zhu.ga, face, &a, own);
     const fap_ga_task task = { .target = a.target,
                                .row_weight = a.weight,
-                               .size = a.count,
+                               .size = fap_lanes_padded(a.count),
                                .crossover = face->cfg.crossover,
                                .generations = face->cfg.generations,
                                .seed = face->cfg.seed,

@@ -15,8 +15,8 @@ static const float left_out_beside = 10; /* this much more "beside" than the bes
 
 /* The region's sub-goal: points it has a say in, and where they should go. */
 typedef struct goal {
-    int count, point[FAP_POINT_COUNT];
-    float vector[FAP_ROWS];
+    int count, plane, point[FAP_POINT_COUNT];
+    float vector[3 * FAP_GA_POINTS]; /* x[plane] y[plane] z[plane] */
 } goal;
 
 int fap_zhu_open(fap_zhu *zhu, const fap_face *face)
@@ -24,7 +24,7 @@ int fap_zhu_open(fap_zhu *zhu, const fap_face *face)
     const int n = face->key_count;
 
     zhu->beside = fap_mem_calloc(&face->alloc, 2 * (size_t)n, sizeof *zhu->beside);
-    return !zhu->beside || fap_ga_open(&zhu->ga, n + 1, FAP_ROWS, n, &face->alloc);
+    return !zhu->beside || fap_ga_open(&zhu->ga, n + 1, 3 * FAP_GA_POINTS, n, &face->alloc);
 }
 
 void fap_zhu_close(fap_zhu *zhu, const fap_face *face)
@@ -63,16 +63,21 @@ static int population_moves(const fap_face *face, int p)
 /* Points of the strip that regions share belong to both. */
 static void set_goal(const fap_face *face, int region, goal *g)
 {
+    float v[FAP_POINT_COUNT][3];
+
     g->count = 0;
     for (int p = 0; p < FAP_POINT_COUNT; p++) {
-        float *v = g->vector + 3 * (size_t)g->count;
         if (!face->solvable[p] || face->regions.point[region][p] <= 0)
             continue;
         for (int axis = 0; axis < 3; axis++)
-            v[axis] = wanted_axis(face, p, axis);
-        if ((v[0] != 0 || v[1] != 0 || v[2] != 0) && population_moves(face, p))
+            v[g->count][axis] = wanted_axis(face, p, axis);
+        if ((v[g->count][0] != 0 || v[g->count][1] != 0 || v[g->count][2] != 0) && population_moves(face, p))
             g->point[g->count++] = p;
     }
+    g->plane = fap_lanes_padded(g->count);
+    memset(g->vector, 0, sizeof g->vector);
+    for (int i = 0; i < 3 * g->count; i++)
+        g->vector[i % 3 * g->plane + i / 3] = v[i / 3][i % 3];
 }
 
 static float least_beside(const fap_zhu *zhu, const fap_face *face)
@@ -101,7 +106,7 @@ static void add_population(fap_zhu *zhu, const fap_face *face, const goal *g)
             continue;
         gene[k] = 1;
         for (int i = 0; i < 3 * g->count; i++)
-            vector[i] =
+            vector[i % 3 * g->plane + i / 3] =
                 face->motion[(size_t)(3 * g->point[i / 3] + i % 3) * (size_t)face->key_count + (size_t)k];
     }
 }
@@ -118,7 +123,7 @@ static void solve_region(fap_zhu *zhu, const fap_face *face, int region, float *
     fap_ga_clear(&zhu->ga);
     add_population(zhu, face, &g);
     const fap_ga_task task = { .target = g.vector,
-                               .size = 3 * g.count,
+                               .size = 3 * g.plane,
                                .cosine = 1,
                                .crossover = face->cfg.crossover,
                                .generations = face->cfg.generations,

@@ -296,14 +296,14 @@ static float error_mm(const fap_face *face)
 /* The same as the method's own fitness, for a shape that is not made of weights alone. */
 static float measured_fitness(const fap_face *face)
 {
-    float target[FAP_ROWS] = { 0 }, got[FAP_ROWS] = { 0 };
+    float target[3][FAP_GA_POINTS] = { 0 }, got[3][FAP_GA_POINTS] = { 0 };
 
     for (int r = 0; r < face->row_count; r++) {
         const int row = face->row[r], p = row / 3, axis = row % 3;
-        target[row] = fap_blend_row_target(face, row);
-        got[row] = face->point[p][axis] - face->neutral[p][axis] - face->fixed_motion[row];
+        target[axis][p] = fap_blend_row_target(face, row);
+        got[axis][p] = face->point[p][axis] - face->neutral[p][axis] - face->fixed_motion[row];
     }
-    return fap_ga_cosine(target, got, FAP_ROWS);
+    return fap_ga_cosine(target[0], got[0], FAP_GA_POINTS);
 }
 
 static void move_in_head(fap_face *face, const fap_frame *frame, float *position)
@@ -332,7 +332,7 @@ static void finish(fap_face *face, const float *position, float *normal)
 {
     show_weights(face);
     if (normal)
-        fap_normals_compute(&face->normals, &face->dsp, face->mesh, position, normal);
+        fap_normals_compute(&face->normals, &face->dsp, face->mesh->stride, position, normal);
 }
 
 void fap_face_pose(fap_face *face, const fap_frame *frame, float *position, float *normal)

@@ -14,6 +14,7 @@
 #include "bank/least_squares.h"
 #include "bank/region.h"
 #include "bank/residual.h"
+#include "base/lanes.h"
 #include "dsp/dsp.h"
 
 enum { FAP_ROWS = FAP_POINT_COUNT * 3, FAP_BASE_MAX = 4, FAP_LIP_SLITS = 3, FAP_SLITS = 5 };
@@ -32,9 +33,10 @@ typedef struct fap_face_list {
 typedef struct fap_face_eye {
     int present;
     float centre[3], radius;
-    fap_face_list ball; /* vertices of the eyeball */
-    fap_face_list lid;  /* skin that must stay outside the eyeball ... */
-    float *lid_radius;  /* ... at least this far from its centre */
+    fap_face_list ball;          /* vertices of the eyeball */
+    float (*rest)[3][FAP_LANES]; /* [ball.count in blocks of lanes]: where they are, from the centre */
+    fap_face_list lid;           /* skin that must stay outside the eyeball ... */
+    float *lid_radius;           /* ... at least this far from its centre */
 } fap_face_eye;
 
 struct fap_face {
@@ -54,8 +56,9 @@ struct fap_face {
     fap_face_keys known;
     fap_face_eye eye[2]; /* left, right */
     fap_face_list lower_teeth, tongue, lash;
-    uint32_t *follows; /* [vertex_count]: nearest skin vertex of a lash, itself for the rest */
-    int *block_level;  /* [stride / FAP_BLOCK]: the head weight all lanes share, -1: they differ */
+    float tongue_middle, tongue_half; /* its middle line's x, and how far its border is from there */
+    uint32_t *follows;                /* [vertex_count]: nearest skin vertex of a lash, itself for the rest */
+    int *block_level; /* [stride / FAP_BLOCK]: the head weight all lanes share, -1: they differ */
     int chin_row;
     int slit[FAP_SLITS][2]; /* points that must not pass each other: upper, lower; lips, then lids */
     float spine[3];
@@ -75,8 +78,9 @@ struct fap_face {
     float base_weight[FAP_BASE_MAX]; /* viseme and expression: yield to low-level FAPs */
     float *fixed;                    /* [key_count]: gaze and blink: do not yield */
     float fixed_motion[FAP_ROWS];
-    float *weight;                   /* [FAP_REGION_MAX][key_count]: the answer */
-    float field_share; /* how much of what weights leave over the residual's fields take up as part of the method */
+    float *weight; /* [FAP_REGION_MAX][key_count]: the answer */
+    float
+        field_share; /* how much of what weights leave over the residual's fields take up as part of the method */
     float field[3][FAP_POINT_COUNT], field_motion[FAP_ROWS]; /* those fields at a share of 1 */
     float *shown;                    /* [key_count]: the mean of the regions' weights, for callers */
     float *lift;                     /* [stride]: how far each lid vertex was pushed out */

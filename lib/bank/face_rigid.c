@@ -55,6 +55,20 @@ static int is_lid(const fap_face *face, const fap_face_eye *eye, uint32_t v)
            square_distance(p, eye->centre) < lid_reach * lid_reach * eye->radius * eye->radius;
 }
 
+static int list_rest(fap_face *face, fap_face_eye *eye)
+{
+    const fap_mesh *mesh = face->mesh;
+
+    eye->rest = fap_mem_calloc(&face->alloc, eye->ball.count / FAP_LANES + 1, sizeof *eye->rest);
+    if (!eye->rest)
+        return 1;
+    for (uint32_t i = 0; i < eye->ball.count; i++)
+        for (size_t axis = 0; axis < 3; axis++)
+            eye->rest[i / FAP_LANES][axis][i % FAP_LANES] =
+                mesh->position[axis * mesh->stride + eye->ball.vertex[i]] - eye->centre[axis];
+    return 0;
+}
+
 static int list_lids(fap_face *face, fap_face_eye *eye)
 {
     const uint32_t vertex_count = eye->present ? face->mesh->vertex_count : 0;
@@ -108,6 +122,18 @@ static void hang_lashes(fap_face *face)
         face->follows[face->lash.vertex[i]] = nearest_lid(face, face->lash.vertex[i]);
 }
 
+static void measure_tongue(fap_face *face)
+{
+    const float *x = face->mesh->position;
+
+    face->tongue_middle = 0;
+    face->tongue_half = 1e-3f;
+    for (uint32_t i = 0; i < face->tongue.count; i++)
+        face->tongue_middle += x[face->tongue.vertex[i]] / (float)face->tongue.count;
+    for (uint32_t i = 0; i < face->tongue.count; i++)
+        face->tongue_half = fmaxf(face->tongue_half, fabsf(x[face->tongue.vertex[i]] - face->tongue_middle));
+}
+
 static void level_blocks(fap_face *face)
 {
     const uint8_t *w = face->mesh->head_weight;
@@ -133,13 +159,14 @@ fap_err fap_face_open_parts(fap_face *face)
         fap_face_eye *eye = &face->eye[side];
         eye->present = fap_bank_eye(face->bank, side, eye->centre, &eye->radius);
         failed = failed || list_part(face, &eye->ball, side ? FAP_PART_EYE_RIGHT : FAP_PART_EYE_LEFT) ||
-                 list_lids(face, eye);
+                 list_rest(face, eye) || list_lids(face, eye);
     }
     failed = failed || list_part(face, &face->lower_teeth, FAP_PART_TEETH_LOWER) ||
              list_part(face, &face->tongue, FAP_PART_TONGUE) || list_part(face, &face->lash, FAP_PART_LASHES);
     if (failed)
         return FAP_E_NOMEM;
     hang_lashes(face);
+    measure_tongue(face);
     level_blocks(face);
     return FAP_OK;
 }
@@ -154,6 +181,7 @@ void fap_face_close_parts(fap_face *face)
     fap_mem_free(&face->alloc, face->lash.vertex);
     for (int side = 0; side < 2; side++) {
         fap_mem_free(&face->alloc, face->eye[side].ball.vertex);
+        fap_mem_free(&face->alloc, face->eye[side].rest);
         fap_mem_free(&face->alloc, face->eye[side].lid.vertex);
         fap_mem_free(&face->alloc, face->eye[side].lid_radius);
     }
@@ -189,19 +217,18 @@ static void turn_about(float p[3], const float m[3][3], const float centre[3])
 /* One eyeball of this frame. */
 typedef struct gaze {
     float turn[3][3];
-    int turns;
     float thrust, iris, pupil, wide; /* millimetres; radii at rest, and the pupil's now */
 } gaze;
 
 /*
  * FAPs 29 and 30 count the pupil's diameter. At rest it is a third of the iris (the standard's neutral face),
- * whose diameter is IRISD0; the ring between pupil and rim of the iris is stretched or squeezed.
+ * whose diameter is IRISD0.
  */
 static gaze read_gaze(const fap_face *face, const fap_frame *frame, int side)
 {
     const fap_fapu *fapu = fap_bank_fapu(face->bank);
     const int32_t yaw = angle_of(frame, 23 + side), pitch = angle_of(frame, 25 + side);
-    gaze g = { .turns = yaw || pitch, .thrust = thrust_of(face, frame, side) };
+    gaze g = { .thrust = thrust_of(face, frame, side) };
 
     fap_head_rotation(pitch, yaw, 0, g.turn);
     g.iris = fminf(fapu->irisd_mm / 2, 0.9f * face->eye[side].radius);
@@ -211,36 +238,53 @@ static gaze read_gaze(const fap_face *face, const fap_frame *frame, int side)
     return g;
 }
 
-static void dilate(float p[3], const float centre[3], const gaze *g)
+/*
+ * The ring between pupil and rim of the iris is stretched or squeezed along the ball. Every lane is worked on, those
+ * outside the iris by a ratio of 1.
+ */
+static void dilate(float p[3][FAP_LANES], const gaze *g)
 {
-    const float x = p[0] - centre[0], y = p[1] - centre[1], z = p[2] - centre[2], from = hypotf(x, y);
+    const float rim = g->iris * g->iris, in = g->wide / g->pupil;
+    const float slope = (g->iris - g->wide) / (g->iris - g->pupil);
 
-    if (from >= g->iris || from <= 0 || z < 0)
-        return;
-    const float to = from < g->pupil
-                         ? from * g->wide / g->pupil
-                         : g->wide + (from - g->pupil) * (g->iris - g->wide) / (g->iris - g->pupil);
-    p[0] = centre[0] + x * to / from;
-    p[1] = centre[1] + y * to / from;
-    p[2] = centre[2] + sqrtf(fmaxf(0, z * z + from * from - to * to)); /* stays on the ball */
+    for (int k = 0; k < FAP_LANES; k++) {
+        const float x = p[0][k], y = p[1][k], z = p[2][k], square = x * x + y * y;
+        const int moves = square < rim && square > 0 && z >= 0;
+        const float from = sqrtf(moves ? square : 1);
+        const float ring = (g->wide + (from - g->pupil) * slope) / from;
+        const float ratio = from < g->pupil ? in : ring;
+        const float deep = z * z + square - ratio * ratio * square; /* stays on the ball */
+        const float forward = sqrtf(deep > 0 ? deep : 0);
+        p[0][k] = moves ? x * ratio : x;
+        p[1][k] = moves ? y * ratio : y;
+        p[2][k] = moves ? forward : z;
+    }
+}
+
+static void turn(float p[3][FAP_LANES], const float m[3][3])
+{
+    for (int k = 0; k < FAP_LANES; k++) {
+        const float x = p[0][k], y = p[1][k], z = p[2][k];
+        for (int i = 0; i < 3; i++)
+            p[i][k] = m[i][0] * x + m[i][1] * y + m[i][2] * z;
+    }
 }
 
 /* Eyeballs are rigid: what keys did to them is undone. */
 static void turn_ball(const fap_face *face, const fap_face_eye *eye, const gaze *g, float *position)
 {
-    const size_t stride = face->mesh->stride;
+    const float centre[3] = { eye->centre[0], eye->centre[1], eye->centre[2] + g->thrust };
+    float p[3][FAP_LANES];
 
-    for (uint32_t i = 0; i < eye->ball.count; i++) {
-        const uint32_t v = eye->ball.vertex[i];
-        float p[3];
-        vertex_at(face->mesh, face->mesh->position, v, p);
+    for (uint32_t first = 0; first < eye->ball.count; first += FAP_LANES) {
+        const uint32_t rest = eye->ball.count - first, n = rest < FAP_LANES ? rest : FAP_LANES;
+        memcpy(p, eye->rest[first / FAP_LANES], sizeof p);
         if (g->wide != g->pupil)
-            dilate(p, eye->centre, g);
-        if (g->turns)
-            turn_about(p, (const float(*)[3])g->turn, eye->centre);
-        position[v] = p[0];
-        position[stride + v] = p[1];
-        position[2 * stride + v] = p[2] + g->thrust;
+            dilate(p, g);
+        turn(p, g->turn);
+        for (size_t axis = 0; axis < 3; axis++)
+            for (uint32_t k = 0; k < n; k++)
+                position[axis * face->mesh->stride + eye->ball.vertex[first + k]] = centre[axis] + p[axis][k];
     }
 }
 
@@ -255,29 +299,44 @@ void fap_face_turn_eyes(const fap_face *face, const fap_frame *frame, float *pos
 }
 
 /*
- * Push a lid vertex forward, not outward: FAPs fix the height of lids, and what they fix must stay. Returns
- * how far.
+ * Push lid vertices forward, not outward: FAPs fix the height of lids, and what they fix must stay. @p lift becomes how
+ * far each of @p p, from the eyeball's centre, has to go.
  */
-static float lift_of(const float p[3], const float centre[3], float radius)
+static void lift_of(const float p[3][FAP_LANES], const float radius[FAP_LANES], float lift[FAP_LANES])
 {
-    const float x = p[0] - centre[0], y = p[1] - centre[1], z = p[2] - centre[2];
-    const float room = radius * radius - x * x - y * y;
+    for (int k = 0; k < FAP_LANES; k++) {
+        const float z = p[2][k], room = radius[k] * radius[k] - p[0][k] * p[0][k] - p[1][k] * p[1][k];
+        const float way = sqrtf(room > 0 ? room : 0) - z;
+        lift[k] = room > 0 && z > -radius[k] && way > 0 ? way : 0;
+    }
+}
 
-    return room > 0 && z > -radius ? fmaxf(0, sqrtf(room) - z) : 0;
+static void slide_block(fap_face *face, const fap_face_eye *eye, const float centre[3], uint32_t first,
+                        float *position)
+{
+    const size_t stride = face->mesh->stride;
+    const uint32_t rest = eye->lid.count - first, n = rest < FAP_LANES ? rest : FAP_LANES;
+    const uint32_t *vertex = eye->lid.vertex + first;
+    float p[3][FAP_LANES] = { { 0 } }, radius[FAP_LANES] = { 0 }, lift[FAP_LANES];
+
+    for (uint32_t k = 0; k < n; k++) {
+        for (size_t axis = 0; axis < 3; axis++)
+            p[axis][k] = position[axis * stride + vertex[k]] - centre[axis];
+        radius[k] = eye->lid_radius[first + k];
+    }
+    lift_of((const float(*)[FAP_LANES])p, radius, lift);
+    for (uint32_t k = 0; k < n; k++) {
+        face->lift[vertex[k]] = lift[k];
+        position[2 * stride + vertex[k]] += lift[k];
+    }
 }
 
 static void slide_lid(fap_face *face, const fap_face_eye *eye, float thrust, float *position)
 {
     const float centre[3] = { eye->centre[0], eye->centre[1], eye->centre[2] + thrust };
-    float *z = position + 2 * (size_t)face->mesh->stride;
 
-    for (uint32_t i = 0; i < eye->lid.count; i++) {
-        const uint32_t v = eye->lid.vertex[i];
-        float p[3];
-        vertex_at(face->mesh, position, v, p);
-        face->lift[v] = lift_of(p, centre, eye->lid_radius[i]);
-        z[v] += face->lift[v];
-    }
+    for (uint32_t i = 0; i < eye->lid.count; i += FAP_LANES)
+        slide_block(face, eye, centre, i, position);
 }
 
 void fap_face_slide_lids(fap_face *face, const fap_frame *frame, float *position)
@@ -310,21 +369,16 @@ void fap_face_clamp_teeth(const fap_face *face, float *position)
 void fap_face_curl_tongue(const fap_face *face, const fap_frame *frame, float *position)
 {
     const float angle = fminf(1.5f, fmaxf(0, 1e-5f * value_of(frame, 47)));
-    const float *rest = face->mesh->position;
     const size_t stride = face->mesh->stride;
-    float middle = 0, half = 1e-3f;
 
-    if (angle == 0 || !face->tongue.count)
+    if (angle == 0)
         return;
-    for (uint32_t i = 0; i < face->tongue.count; i++)
-        middle += rest[face->tongue.vertex[i]] / (float)face->tongue.count;
-    for (uint32_t i = 0; i < face->tongue.count; i++)
-        half = fmaxf(half, fabsf(rest[face->tongue.vertex[i]] - middle));
     for (uint32_t i = 0; i < face->tongue.count; i++) {
         const uint32_t v = face->tongue.vertex[i];
-        const float side = rest[v] - middle, turn = angle * fabsf(side) / half;
-        position[v] += side * (cosf(turn) - 1);
-        position[stride + v] += fabsf(side) * sinf(turn);
+        const float side = face->mesh->position[v] - face->tongue_middle;
+        const float by = angle * fabsf(side) / face->tongue_half;
+        position[v] += side * (cosf(by) - 1);
+        position[stride + v] += fabsf(side) * sinf(by);
     }
 }
 

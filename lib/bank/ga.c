@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/lanes.h"
 #include "base/mem.h"
 #include "bank/ga.h"
 
@@ -44,20 +45,68 @@ static void seed_rng(rng *r, uint64_t seed)
     draw(r);
 }
 
+/* --- vectors in blocks of lanes --- */
+
+enum { LANES = FAP_LANES };
+
+static void scale(float *v, float by, int n)
+{
+    for (int i = 0; i < n; i += LANES)
+        for (int k = 0; k < LANES; k++)
+            v[i + k] *= by;
+}
+
+static void mix(float *restrict out, const float *restrict a, const float *restrict b, float t, int n)
+{
+    const float rest = 1 - t;
+
+    for (int i = 0; i < n; i += LANES)
+        for (int k = 0; k < LANES; k++)
+            out[i + k] = t * a[i + k] + rest * b[i + k];
+}
+
+static float largest(const float *v, int n)
+{
+    float most[LANES] = { 0 }, all = 0;
+
+    for (int i = 0; i < n; i += LANES)
+        for (int k = 0; k < LANES; k++)
+            most[k] = v[i + k] > most[k] ? v[i + k] : most[k];
+    for (int k = 0; k < LANES; k++)
+        all = fmaxf(all, most[k]);
+    return all;
+}
+
+static int any_negative(const float *v, int n)
+{
+    float least[LANES] = { 0 };
+    int any = 0;
+
+    for (int i = 0; i < n; i += LANES)
+        for (int k = 0; k < LANES; k++)
+            least[k] = v[i + k] < least[k] ? v[i + k] : least[k];
+    for (int k = 0; k < LANES; k++)
+        any |= least[k] < 0;
+    return any;
+}
+
+/* --- individuals --- */
+
 int fap_ga_open(fap_ga *ga, int capacity, int size_max, int gene_count, const fap_allocator *alloc)
 {
-    const size_t rows = (size_t)capacity + 2, each = (size_t)size_max + (size_t)gene_count + 1;
+    const size_t rows = (size_t)capacity + 2, size = (size_t)fap_lanes_padded(size_max),
+                 genes = (size_t)fap_lanes_padded(gene_count), each = size + genes + 1;
 
     memset(ga, 0, sizeof *ga);
     ga->block = fap_mem_calloc(alloc, rows * each, sizeof(float));
     if (!ga->block)
         return 1;
     ga->capacity = capacity;
-    ga->size_max = size_max;
-    ga->gene_count = gene_count;
+    ga->size_max = (int)size;
+    ga->gene_count = (int)genes;
     ga->vector = ga->block;
-    ga->gene = ga->vector + rows * (size_t)size_max;
-    ga->score = ga->gene + rows * (size_t)gene_count;
+    ga->gene = ga->vector + rows * size;
+    ga->score = ga->gene + rows * genes;
     return 0;
 }
 
@@ -93,103 +142,125 @@ int fap_ga_add(fap_ga *ga, float **vector, float **gene)
     return 1;
 }
 
-static float dot3(const float *a, const float *b)
+/* --- fitness --- */
+
+/* The three coordinates of a block of points. */
+static void lengths(const float *x, int plane, float *restrict out)
 {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    const float *y = x + plane, *z = y + plane;
+
+    for (int k = 0; k < LANES; k++)
+        out[k] = sqrtf((x[k] * x[k] + y[k] * y[k]) + z[k] * z[k]);
 }
 
-/* Mean cosine, the lengths of the target's vectors known. */
-static float cosine(const float *target, const float *length, const float *candidate, int size)
+static void measure_target(fap_ga_aim *aim, const float *target, int plane)
 {
-    float sum = 0;
-    int moving = 0;
+    float length[LANES];
 
-    for (int i = 0; i + 2 < size; i += 3) {
-        const float wanted = length[i / 3];
-        if (wanted <= tiny)
-            continue;
-        const float got = sqrtf(dot3(candidate + i, candidate + i));
-        moving++;
-        if (got > tiny) /* a point that stays where it should move has no angle: it earns nothing */
-            sum += dot3(target + i, candidate + i) / (wanted * got);
+    aim->plane = plane;
+    aim->moving = 0;
+    aim->length = 0;
+    for (int p = 0; p < plane; p += LANES) {
+        lengths(target + p, plane, length);
+        for (int k = 0; k < LANES; k++) {
+            const int moves = length[k] > tiny;
+            aim->counts[p + k] = (float)moves;
+            aim->per_length[p + k] = moves ? 1 / length[k] : 0;
+            aim->length += moves ? length[k] : 0;
+            aim->moving += moves;
+        }
     }
-    return moving ? sum / (float)moving : 1;
 }
 
-static void measure_lengths(const float *target, int size, float *length)
+/* Mean cosine. A point that stays where it should move has no angle: it earns nothing. */
+static float cosine(const fap_ga_aim *aim, const float *target, const float *candidate)
 {
-    for (int i = 0; i + 2 < size; i += 3)
-        length[i / 3] = sqrtf(dot3(target + i, target + i));
+    const int plane = aim->plane;
+    float sum[LANES] = { 0 }, got[LANES];
+
+    for (int p = 0; p < plane; p += LANES) {
+        const float *a = target + p, *b = candidate + p, *per = aim->per_length + p;
+        lengths(b, plane, got);
+        for (int k = 0; k < LANES; k++) {
+            const float dot =
+                (a[k] * b[k] + a[plane + k] * b[plane + k]) + a[2 * plane + k] * b[2 * plane + k];
+            const float share = dot * per[k] / (got[k] > tiny ? got[k] : 1);
+            sum[k] += got[k] > tiny ? share : 0;
+        }
+    }
+    return aim->moving ? fap_lanes_sum(sum) / (float)aim->moving : 1;
 }
 
-float fap_ga_cosine(const float *target, const float *candidate, int size)
+float fap_ga_cosine(const float *target, const float *candidate, int plane)
 {
-    float length[FAP_POINT_COUNT];
+    fap_ga_aim aim;
 
-    measure_lengths(target, size, length);
-    return cosine(target, length, candidate, size);
+    measure_target(&aim, target, plane);
+    return cosine(&aim, target, candidate);
 }
 
 static float squared_error(const fap_ga_task *task, const float *candidate)
 {
-    float sum = 0;
+    float sum[LANES] = { 0 };
 
-    for (int i = 0; i < task->size; i++) {
-        const float e = candidate[i] - task->target[i];
-        sum += task->row_weight[i] * (e * e);
-    }
-    return sum;
+    for (int i = 0; i < task->size; i += LANES)
+        for (int k = 0; k < LANES; k++) {
+            const float e = candidate[i + k] - task->target[i + k];
+            sum[k] += task->row_weight[i + k] * (e * e);
+        }
+    return fap_lanes_sum(sum);
 }
 
 static float rate(const fap_ga *ga, const fap_ga_task *task, const float *candidate)
 {
-    return task->cosine ? cosine(task->target, ga->length, candidate, task->size)
-                        : -squared_error(task, candidate);
+    return task->cosine ? cosine(&ga->aim, task->target, candidate) : -squared_error(task, candidate);
 }
 
-static float summed_length(const fap_ga *ga, const fap_ga_task *task, const float *vector)
+static float summed_length(const fap_ga_aim *aim, const float *vector)
 {
-    float sum = 0;
+    float sum[LANES] = { 0 }, length[LANES];
 
-    for (int i = 0; i + 2 < task->size; i += 3)
-        if (ga->length[i / 3] > tiny)
-            sum += sqrtf(dot3(vector + i, vector + i));
-    return sum;
+    for (int p = 0; p < aim->plane; p += LANES) {
+        lengths(vector + p, aim->plane, length);
+        for (int k = 0; k < LANES; k++)
+            sum[k] += aim->counts[p + k] * length[k];
+    }
+    return fap_lanes_sum(sum);
 }
 
 /* Section 3.2: the ratio of the summed lengths of target and candidate. */
-static float length_ratio(const fap_ga *ga, const fap_ga_task *task, const float *vector)
+static float length_ratio(const fap_ga *ga, const float *vector)
 {
-    const float own = summed_length(ga, task, vector);
-    return own > tiny ? ga->target_length / own : 1;
+    const float own = summed_length(&ga->aim, vector);
+    return own > tiny ? ga->aim.length / own : 1;
 }
 
 /* The scale with the least error that keeps every gene in its range. */
 static float best_scale(const fap_ga *ga, const fap_ga_task *task, int i)
 {
-    const float *v = vector_of(ga, i), *gene = gene_of(ga, i);
-    float wanted = 0, own = 0, largest = 0;
+    const float *v = vector_of(ga, i);
+    float wanted[LANES] = { 0 }, own[LANES] = { 0 };
 
-    for (int k = 0; k < task->size; k++) {
-        wanted += task->row_weight[k] * (v[k] * task->target[k]);
-        own += task->row_weight[k] * (v[k] * v[k]);
-    }
-    for (int k = 0; k < ga->gene_count; k++)
-        largest = fmaxf(largest, gene[k]);
-    const float scale = own > tiny ? fmaxf(wanted, 0) / own : 1;
-    return largest > tiny ? fminf(scale, task->gene_max / largest) : scale;
+    for (int r = 0; r < task->size; r += LANES)
+        for (int k = 0; k < LANES; k++) {
+            const float weighted = task->row_weight[r + k] * v[r + k];
+            wanted[k] += weighted * task->target[r + k];
+            own[k] += weighted * v[r + k];
+        }
+    const float square = fap_lanes_sum(own), most = largest(gene_of(ga, i), ga->gene_count);
+    const float by = square > tiny ? fmaxf(fap_lanes_sum(wanted), 0) / square : 1;
+    return most > tiny ? fminf(by, task->gene_max / most) : by;
 }
 
 static void scale_individual(const fap_ga *ga, const fap_ga_task *task, int i)
 {
-    float *v = vector_of(ga, i), *gene = gene_of(ga, i);
-    const float scale = task->cosine ? length_ratio(ga, task, v) : best_scale(ga, task, i);
+    const float by = task->cosine ? length_ratio(ga, vector_of(ga, i)) : best_scale(ga, task, i);
 
-    for (int k = 0; k < task->size; k++)
-        v[k] *= scale;
-    for (int k = 0; k < ga->gene_count; k++)
-        gene[k] *= scale;
+    scale(vector_of(ga, i), by, task->size);
+    scale(gene_of(ga, i), by, ga->gene_count);
 }
+
+/* --- generations --- */
 
 /* Share of the first parent; the second has the rest. Eq. 3.6 written out is a line of 1 + 2 alpha the
  * length. */
@@ -201,21 +272,13 @@ static float share(rng *r, fap_crossover crossover)
     return crossover == FAP_CROSSOVER_LINE ? t : t * (1 + 2 * blx_alpha) - blx_alpha;
 }
 
-static void mix(float *out, const float *a, const float *b, float t, int n)
-{
-    for (int i = 0; i < n; i++)
-        out[i] = t * a[i] + (1 - t) * b[i];
-}
-
 /* BLX leaves the range that genes may have; such a child is not worth a second look. */
 static int allowed(const fap_ga *ga, const fap_ga_task *task, int i)
 {
     const float *gene = gene_of(ga, i);
 
-    for (int k = 0; k < ga->gene_count && !task->cosine; k++)
-        if (gene[k] < 0 || gene[k] > task->gene_max)
-            return 0;
-    return 1;
+    return task->cosine ||
+           (!any_negative(gene, ga->gene_count) && largest(gene, ga->gene_count) <= task->gene_max);
 }
 
 static void copy_individual(fap_ga *ga, int to, int from)
@@ -274,10 +337,8 @@ const float *fap_ga_run(fap_ga *ga, const fap_ga_task *task, float *score)
     if (!ga->count)
         return NULL;
     seed_rng(&r, task->seed);
-    if (task->cosine) {
-        measure_lengths(task->target, task->size, ga->length);
-        ga->target_length = summed_length(ga, task, task->target);
-    }
+    if (task->cosine)
+        measure_target(&ga->aim, task->target, task->size / 3);
     ga->score[best] = -INFINITY;
     for (int i = 0; i < ga->count; i++) {
         ga->score[i] = rate(ga, task, vector_of(ga, i));

@@ -12,13 +12,17 @@
 #include <fap/alloc.h>
 #include <fap/face.h>
 
+#include "base/lanes.h"
+
 typedef struct fap_ga fap_ga;
 
-/* What a caller of the algorithm defines. Vectors have @c size floats, genes @c gene_count. */
+/*
+ * What a caller of the algorithm defines. Vectors have @c size floats, a multiple of FAP_LANES, zeros at the end; genes
+ * @c gene_count. Where fitness is the cosine a vector is three planes, x, y, z of all points, each such a multiple.
+ */
 typedef struct fap_ga_task {
     const float *target;
-    const float *
-        row_weight; /* millimetres: importance of each float of the vector; the thesis's fitness ignores it */
+    const float *row_weight; /* error only: importance of each float of the vector */
     int size;
     int cosine; /* 1: fitness is the mean cosine of 3D vectors (eq. 3.3); 0: minus the squared error */
     fap_crossover crossover;
@@ -27,12 +31,22 @@ typedef struct fap_ga_task {
     float gene_max; /* error only: genes stay in 0 .. gene_max */
 } fap_ga_task;
 
+enum { FAP_GA_POINTS = (FAP_POINT_COUNT + FAP_LANES - 1) / FAP_LANES * FAP_LANES };
+
+/* The target of a cosine, measured once. */
+typedef struct fap_ga_aim {
+    int plane, moving;               /* points with the padding; those that should move */
+    float length;                    /* of all that should move, summed */
+    float per_length[FAP_GA_POINTS]; /* 1 / length; 0 where nothing should move */
+    float counts[FAP_GA_POINTS];     /* 1 where something should, else 0 */
+} fap_ga_aim;
+
 struct fap_ga {
-    int capacity, count; /* individuals */
-    int size_max, gene_count;
-    float *vector, *gene; /* [capacity + 2][...]: the population, then the best so far, then the child */
+    int capacity, count;      /* individuals */
+    int size_max, gene_count; /* multiples of FAP_LANES */
+    float *vector, *gene;     /* [capacity + 2][...]: the population, then the best so far, then the child */
     float *score;
-    float length[FAP_POINT_COUNT], target_length; /* of the target's vectors, each and summed */
+    fap_ga_aim aim;
     void *block;
 };
 
@@ -46,8 +60,8 @@ void fap_ga_clear(fap_ga *ga);
 int fap_ga_add(fap_ga *ga, float **vector, float **gene);
 /* Runs the generations. The best individual ever, or NULL for an empty population; its score. */
 const float *fap_ga_run(fap_ga *ga, const fap_ga_task *task, float *score);
-/* Mean cosine over the points whose target moves (eq. 3.2, 3.3); 1 when none does. @p size floats, xyz by
- * xyz, at most 3 * FAP_POINT_COUNT. */
-float fap_ga_cosine(const float *target, const float *candidate, int size);
+/* Mean cosine over the points whose target moves (eq. 3.2, 3.3); 1 when none does. @p plane: points, a multiple of
+ * FAP_LANES, at most FAP_GA_POINTS. */
+float fap_ga_cosine(const float *target, const float *candidate, int plane);
 
 #endif

@@ -8,7 +8,7 @@
 #include "bank/ga.h"
 #include "base/mem.h"
 
-enum { KEYS = 12, POINTS = 8, SIZE = 3 * POINTS };
+enum { KEYS = 12, POINTS = FAP_LANES, SIZE = 3 * POINTS };
 
 typedef struct bed {
     fap_allocator alloc;
@@ -73,17 +73,19 @@ static void vector_of(const bed *b, const float *gene, float *out)
 static float summed_length(const float *v)
 {
     float sum = 0;
-    for (int i = 0; i < SIZE; i += 3)
-        sum += sqrtf(v[i] * v[i] + v[i + 1] * v[i + 1] + v[i + 2] * v[i + 2]);
+    for (int i = 0; i < POINTS; i++)
+        sum += sqrtf(v[i] * v[i] + v[POINTS + i] * v[POINTS + i] + v[2 * POINTS + i] * v[2 * POINTS + i]);
     return sum;
 }
 
 TEST(ga, cosine_is_that_of_the_angles_averaged_over_points_that_move)
 {
-    const float target[9] = { 1, 0, 0, 0, 2, 0, 0, 0, 0 }, got[9] = { 3, 0, 0, 1, 1, 0, 7, 7, 7 };
+    /* x of 8 points, then y, then z: the first moves along x, the second along y, the third not at all */
+    const float target[SIZE] = { [0] = 1, [POINTS + 1] = 2 };
+    const float got[SIZE] = { [0] = 3, [1] = 1, [POINTS + 1] = 1, [2] = 7, [POINTS + 2] = 7 };
 
-    assert_float_equal(fap_ga_cosine(target, got, 9), (1 + sqrt(0.5)) / 2, 1e-6);
-    assert_true(fap_ga_cosine(got + 9, got, 0) == 1);
+    assert_float_equal(fap_ga_cosine(target, got, POINTS), (1 + sqrt(0.5)) / 2, 1e-6);
+    assert_true(fap_ga_cosine(target, got, 0) == 1);
 }
 
 TEST(ga, genes_make_the_vector_whose_score_is_reported)
@@ -95,7 +97,7 @@ TEST(ga, genes_make_the_vector_whose_score_is_reported)
         populate(&b);
         const fap_ga_task task = task_of(&b, (fap_crossover)crossover, 5);
         vector_of(&b, fap_ga_run(&b.ga, &task, &score), vector);
-        assert_float_equal(fap_ga_cosine(b.target, vector, SIZE), score, 1e-4);
+        assert_float_equal(fap_ga_cosine(b.target, vector, POINTS), score, 1e-4);
         assert_float_equal(summed_length(vector), summed_length(b.target), 1e-2);
         fap_ga_close(&b.ga, &b.alloc);
     }
@@ -105,7 +107,7 @@ static float best_key(const bed *b)
 {
     float best = -1;
     for (int k = 0; k < KEYS; k++)
-        best = fmaxf(best, fap_ga_cosine(b->target, b->key[k], SIZE));
+        best = fmaxf(best, fap_ga_cosine(b->target, b->key[k], POINTS));
     return best;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bank/face.h"
+#include "base/lanes.h"
 #include "base/mem.h"
 
 /* Prices in square millimetres: what a weight of one costs against a squared error. */
@@ -113,6 +114,36 @@ static void make_basis(fap_least_squares *ls, const fap_face *face)
     puff_outward(ls, face);
 }
 
+/* The whole face's, and one of each region where there are any. */
+static int open_problems(fap_least_squares *ls, const fap_face *face)
+{
+    const size_t size = (size_t)ls->qp.capacity;
+    const int count = 1 + (face->regions.count > 1 ? face->regions.count : 0);
+
+    ls->problem = fap_mem_calloc(&face->alloc, (size_t)count, sizeof *ls->problem);
+    if (!ls->problem)
+        return 1;
+    ls->problem_count = count;
+    for (int i = 0; i < count; i++) {
+        fap_problem *p = &ls->problem[i];
+        p->base_count = -1;
+        p->gram = fap_mem_calloc(&face->alloc, size * size, sizeof *p->gram);
+        p->variable = fap_mem_calloc(&face->alloc, size, sizeof *p->variable);
+        if (!p->gram || !p->variable)
+            return 1;
+    }
+    return 0;
+}
+
+static void close_problems(fap_least_squares *ls, const fap_face *face)
+{
+    for (int i = 0; i < ls->problem_count; i++) {
+        fap_mem_free(&face->alloc, ls->problem[i].gram);
+        fap_mem_free(&face->alloc, ls->problem[i].variable);
+    }
+    fap_mem_free(&face->alloc, ls->problem);
+}
+
 int fap_least_squares_open(fap_least_squares *ls, const fap_face *face)
 {
     const fap_allocator *alloc = &face->alloc;
@@ -123,10 +154,10 @@ int fap_least_squares_open(fap_least_squares *ls, const fap_face *face)
     ls->beside = fap_mem_calloc(alloc, 2 * n, sizeof *ls->beside);
     ls->mover = fap_mem_calloc(alloc, n + 1, sizeof *ls->mover);
     ls->reach = fap_mem_calloc(alloc, n + 1, sizeof *ls->reach);
-    ls->variable = fap_mem_calloc(alloc, n + 1, sizeof *ls->variable);
+    ls->pull = fap_mem_calloc(alloc, n + 1, sizeof *ls->pull);
     ls->whole = fap_mem_calloc(alloc, n + 1, sizeof *ls->whole);
-    if (!ls->basis || !ls->free_key || !ls->beside || !ls->mover || !ls->reach || !ls->variable ||
-        !ls->whole || fap_qp_open(&ls->qp, face->key_count + 1, alloc))
+    if (!ls->basis || !ls->free_key || !ls->beside || !ls->mover || !ls->reach || !ls->pull || !ls->whole ||
+        fap_qp_open(&ls->qp, face->key_count + 1, alloc) || open_problems(ls, face))
         return 1;
     make_basis(ls, face);
     find_free_keys(ls, face);
@@ -136,15 +167,15 @@ int fap_least_squares_open(fap_least_squares *ls, const fap_face *face)
 
 void fap_least_squares_close(fap_least_squares *ls, const fap_face *face)
 {
-    void *const blocks[] = { ls->basis, ls->free_key, ls->beside, ls->mover,
-                             ls->reach, ls->variable, ls->whole };
+    void *const blocks[] = { ls->basis, ls->free_key, ls->beside, ls->mover, ls->reach, ls->pull, ls->whole };
 
+    close_problems(ls, face);
     fap_qp_close(&ls->qp, &face->alloc);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         fap_mem_free(&face->alloc, blocks[i]);
 }
 
-/* --- this frame's problem --- */
+/* --- the problem: what it is made of --- */
 
 static int has_base(const fap_face *face, int key)
 {
@@ -164,6 +195,11 @@ static double base_jaw(const fap_face *face)
     for (int i = 0; i < face->base_count && jaw >= 0 && motion[jaw] < 0; i++)
         sum += face->base_weight[i] * fmax(0, motion[face->base_key[i]] / motion[jaw]);
     return sum;
+}
+
+static int has_base_jaw(const fap_face *face)
+{
+    return face->known.mouth_close >= 0 && base_jaw(face) > 0;
 }
 
 static int drives_lips(const fap_face *face)
@@ -186,36 +222,33 @@ static float price_of(const fap_least_squares *ls, const fap_face *face, int key
     return fmaxf(plain_price(ls, key), shut_jaw_factor * plain_price(ls, k->jaw_open));
 }
 
-static void add_variable(fap_least_squares *ls, int column, double hi, double ridge, double prior)
+static void add_variable(fap_problem *p, size_t stride, int column, double ridge)
 {
-    fap_qp *qp = &ls->qp;
-    const size_t i = (size_t)qp->n;
+    const size_t i = (size_t)p->n++;
 
-    ls->variable[qp->n++] = column;
-    qp->hi[i] = hi;
-    qp->gram[i * (size_t)qp->capacity + i] = ridge;
-    qp->linear[i] = ridge * prior;
+    p->variable[i] = column;
+    p->gram[i * stride + i] = ridge;
 }
 
-static void set_variables(fap_least_squares *ls, const fap_face *face)
+/* Keys that are free, then those that are shown, then lips that close over the shown ones' jaw. */
+static void list_variables(const fap_least_squares *ls, const fap_face *face, fap_problem *p)
 {
-    const int close = face->known.mouth_close;
+    const size_t stride = (size_t)ls->qp.capacity;
 
-    fap_qp_clear(&ls->qp, ls->qp.capacity);
-    ls->qp.n = 0;
+    p->n = 0;
     for (int k = 0; k < face->key_count; k++)
         if (ls->free_key[k] && !has_base(face, k))
-            add_variable(ls, k, k == close ? 1 : fap_most_of_a_unit, price_of(ls, face, k), 0);
+            add_variable(p, stride, k, price_of(ls, face, k));
     for (int i = 0; i < face->base_count; i++)
-        add_variable(ls, face->base_key[i], face->base_weight[i], base_hold_mm2, face->base_weight[i]);
-    if (close >= 0 && base_jaw(face) > 0)
-        add_variable(ls, face->key_count, fmin(1, base_jaw(face)), ridge_mm2, 0);
+        add_variable(p, stride, face->base_key[i], base_hold_mm2);
+    if (p->has_base_jaw)
+        add_variable(p, stride, face->key_count, ridge_mm2);
 }
 
-static int variable_of(const fap_least_squares *ls, int key)
+static int variable_of(const fap_problem *p, int key)
 {
-    for (int i = 0; i < ls->qp.n; i++)
-        if (ls->variable[i] == key)
+    for (int i = 0; i < p->n; i++)
+        if (p->variable[i] == key)
             return i;
     return -1;
 }
@@ -224,16 +257,15 @@ static int variable_of(const fap_least_squares *ls, int key)
  * Opposites shown together (mouth left and right) cancel out but for their by-products, which the solver
  * would make use of: stiffness * (w1 + w2)^2 makes that dear and keeps the problem convex.
  */
-static void add_rivals(fap_least_squares *ls)
+static void add_rivals(const fap_least_squares *ls, fap_problem *p)
 {
-    fap_qp *qp = &ls->qp;
+    const size_t stride = (size_t)ls->qp.capacity;
 
     for (int r = 0; r < ls->rival_count; r++) {
         const fap_rivals *rivals = &ls->rivals[r];
-        const int pair[2] = { variable_of(ls, rivals->key[0]), variable_of(ls, rivals->key[1]) };
+        const int pair[2] = { variable_of(p, rivals->key[0]), variable_of(p, rivals->key[1]) };
         for (int i = 0; i < 4 && pair[0] >= 0 && pair[1] >= 0; i++)
-            qp->gram[(size_t)pair[i / 2] * (size_t)qp->capacity + (size_t)pair[i % 2]] +=
-                rivals->stiffness_mm2;
+            p->gram[(size_t)pair[i / 2] * stride + (size_t)pair[i % 2]] += rivals->stiffness_mm2;
     }
 }
 
@@ -249,12 +281,12 @@ static float reach_of(const fap_least_squares *ls, const fap_face *face, int row
 }
 
 /* The variables that move this row, and how far. */
-static int list_movers(fap_least_squares *ls, const fap_face *face, int row)
+static int list_movers(fap_least_squares *ls, const fap_face *face, const fap_problem *p, int row)
 {
     int n = 0;
 
-    for (int i = 0; i < ls->qp.n; i++) {
-        const float reach = reach_of(ls, face, row, ls->variable[i]);
+    for (int i = 0; i < p->n; i++) {
+        const float reach = reach_of(ls, face, row, p->variable[i]);
         if (reach == 0)
             continue;
         ls->mover[n] = i;
@@ -263,30 +295,106 @@ static int list_movers(fap_least_squares *ls, const fap_face *face, int row)
     return n;
 }
 
-static void add_row(fap_least_squares *ls, const fap_face *face, int row, float share)
+/* What a square millimetre of a row counts in a region, -1 the whole face. */
+static float weight_of(const fap_face *face, int region, int row)
 {
-    fap_qp *qp = &ls->qp;
-    const int n = list_movers(ls, face, row);
-    const double weight = share * fap_blend_importance(row), target = fap_blend_row_target(face, row);
+    const float share = region < 0 ? 1 : face->regions.point[region][row / 3];
+    return share * fap_blend_importance(row);
+}
+
+static void add_row(fap_least_squares *ls, const fap_face *face, fap_problem *p, int row, double weight)
+{
+    const int n = list_movers(ls, face, p, row);
 
     for (int i = 0; i < n; i++) {
         const double a = weight * ls->reach[i];
-        double *g = qp->gram + (size_t)ls->mover[i] * (size_t)qp->capacity;
-        qp->linear[ls->mover[i]] += a * target;
+        double *g = p->gram + (size_t)ls->mover[i] * (size_t)ls->qp.capacity;
         for (int j = 0; j < n; j++)
             g[ls->mover[j]] += a * ls->reach[j];
     }
 }
 
+static int is_made_for(const fap_problem *p, const fap_face *face)
+{
+    return p->base_count == face->base_count && p->has_base_jaw == has_base_jaw(face) &&
+           !memcmp(p->base_key, face->base_key, sizeof *p->base_key * (size_t)p->base_count) &&
+           !memcmp(p->wanted, face->wanted, sizeof p->wanted);
+}
+
+static void make_problem(fap_least_squares *ls, const fap_face *face, int region, fap_problem *p)
+{
+    const size_t size = (size_t)ls->qp.capacity;
+
+    memcpy(p->wanted, face->wanted, sizeof p->wanted);
+    memcpy(p->base_key, face->base_key, sizeof p->base_key);
+    p->base_count = face->base_count;
+    p->has_base_jaw = has_base_jaw(face);
+    memset(p->gram, 0, size * size * sizeof *p->gram);
+    fap_blend_beside(face, -1, ls->basis, (size_t)face->key_count + 1, ls->beside);
+    list_variables(ls, face, p);
+    add_rivals(ls, p);
+    for (int r = 0; r < face->row_count; r++)
+        if (weight_of(face, region, face->row[r]) > 0)
+            add_row(ls, face, p, face->row[r], weight_of(face, region, face->row[r]));
+    for (size_t i = 0; i < (size_t)p->n && region >= 0; i++)
+        p->gram[i * size + i] += tie_mm2;
+}
+
+/* --- this frame's targets --- */
+
+/* What the targets ask of each column: the transposed basis times weighted targets. */
+static void gather_pull(fap_least_squares *ls, const fap_face *face, int region)
+{
+    const int columns = face->key_count + 1, puff = face->known.cheek_puff;
+
+    memset(ls->pull, 0, (size_t)columns * sizeof *ls->pull);
+    for (int r = 0; r < face->row_count; r++) {
+        const int row = face->row[r];
+        const float *basis = ls->basis + (size_t)row * (size_t)columns;
+        const float asked = weight_of(face, region, row) * fap_blend_row_target(face, row);
+        fap_lanes_add(ls->pull, basis, asked, columns);
+        if (puff >= 0)
+            ls->pull[puff] += asked * (reach_of(ls, face, row, puff) - basis[puff]);
+    }
+}
+
+static double bound_of(const fap_face *face, int column)
+{
+    for (int i = 0; i < face->base_count; i++)
+        if (face->base_key[i] == column)
+            return face->base_weight[i];
+    if (column == face->key_count)
+        return fmin(1, base_jaw(face));
+    return column == face->known.mouth_close ? 1 : fap_most_of_a_unit;
+}
+
+static void set_targets(fap_least_squares *ls, const fap_face *face, int region, const fap_problem *p)
+{
+    fap_qp *qp = &ls->qp;
+
+    gather_pull(ls, face, region);
+    for (int i = 0; i < p->n; i++) {
+        const int column = p->variable[i];
+        qp->lo[i] = 0;
+        qp->hi[i] = bound_of(face, column);
+        qp->linear[i] = ls->pull[column];
+        if (has_base(face, column))
+            qp->linear[i] += base_hold_mm2 * qp->hi[i];
+        if (region >= 0)
+            qp->linear[i] += tie_mm2 * ls->whole[i];
+    }
+}
+
 /* Back from "jaw opens behind closed lips" to the bank's own keys. */
-static void read_answer(const fap_least_squares *ls, const fap_face *face, float *weight)
+static void read_answer(const fap_least_squares *ls, const fap_face *face, const fap_problem *p,
+                        float *weight)
 {
     const fap_face_keys *k = &face->known;
 
     memset(weight, 0, sizeof *weight * (size_t)face->key_count);
-    for (int i = 0; i < ls->qp.n; i++) {
+    for (int i = 0; i < p->n; i++) {
         const float x = (float)ls->qp.x[i];
-        const int column = ls->variable[i];
+        const int column = p->variable[i];
         weight[column < face->key_count ? column : k->mouth_close] += x;
         if (column == k->mouth_close && k->jaw_open >= 0)
             weight[k->jaw_open] += x;
@@ -295,39 +403,26 @@ static void read_answer(const fap_least_squares *ls, const fap_face *face, float
         weight[k->jaw_open] = fminf(fap_most_of_a_unit, weight[k->jaw_open]);
 }
 
-void fap_least_squares_solve(fap_least_squares *ls, const fap_face *face, float *weight)
+static void solve(fap_least_squares *ls, const fap_face *face, int region, float *weight)
 {
-    fap_blend_beside(face, -1, ls->basis, (size_t)face->key_count + 1, ls->beside);
-    set_variables(ls, face);
-    add_rivals(ls);
-    for (int r = 0; r < face->row_count; r++)
-        add_row(ls, face, face->row[r], 1);
+    fap_problem *p = &ls->problem[1 + region];
+
+    if (!is_made_for(p, face))
+        make_problem(ls, face, region, p);
+    ls->qp.gram = p->gram;
+    ls->qp.n = p->n;
+    set_targets(ls, face, region, p);
     fap_qp_solve(&ls->qp);
-    memcpy(ls->whole, ls->qp.x, sizeof *ls->whole * (size_t)ls->qp.n);
-    read_answer(ls, face, weight);
+    read_answer(ls, face, p, weight);
 }
 
-/* Every weight is tied to the whole face's answer. */
-static void tie(fap_least_squares *ls)
+void fap_least_squares_solve(fap_least_squares *ls, const fap_face *face, float *weight)
 {
-    fap_qp *qp = &ls->qp;
-
-    for (size_t i = 0; i < (size_t)qp->n; i++) {
-        qp->gram[i * (size_t)qp->capacity + i] += tie_mm2;
-        qp->linear[i] += tie_mm2 * ls->whole[i];
-    }
+    solve(ls, face, -1, weight);
+    memcpy(ls->whole, ls->qp.x, sizeof *ls->whole * (size_t)ls->qp.n);
 }
 
 void fap_least_squares_refine(fap_least_squares *ls, const fap_face *face, int region, float *weight)
 {
-    set_variables(ls, face);
-    add_rivals(ls);
-    tie(ls);
-    for (int r = 0; r < face->row_count; r++) {
-        const float share = face->regions.point[region][face->row[r] / 3];
-        if (share > 0)
-            add_row(ls, face, face->row[r], share);
-    }
-    fap_qp_solve(&ls->qp);
-    read_answer(ls, face, weight);
+    solve(ls, face, region, weight);
 }

@@ -18,8 +18,21 @@ typedef struct fap_rivals {
     float stiffness_mm2;
 } fap_rivals;
 
+/*
+ * What of a problem depends on which rows are commanded and which keys are shown, but not on how far: from frame to frame
+ * the same. Kept, and made anew when it differs; the answer is the same either way.
+ */
+typedef struct fap_problem {
+    uint8_t wanted[FAP_POINT_COUNT][3];
+    int base_count, base_key[4], has_base_jaw; /* base_count -1: not made yet */
+    int n, *variable;                          /* column of each variable */
+    double *gram;                              /* as fap_qp has it */
+} fap_problem;
+
 typedef struct fap_least_squares {
     fap_qp qp;
+    fap_problem *problem; /* [1 + regions]: of the whole face, then of each region */
+    int problem_count;
     float *basis;      /* [FAP_ROWS][key_count + 1]: columns, see close_over_jaw() */
     uint8_t *free_key; /* [key_count]: a variable of the problem */
     fap_rivals rivals[FAP_RIVALS];
@@ -28,7 +41,7 @@ typedef struct fap_least_squares {
     float *beside;    /* [2 * key_count], see fap_blend_beside() */
     int *mover;       /* [key_count + 1]: work of one row, with reach */
     double *reach;
-    int *variable; /* [key_count + 1]: column of each variable */
+    float *pull;   /* [key_count + 1]: what the targets ask of each column */
     double *whole; /* [key_count + 1]: the last answer for the whole face, by variable */
 } fap_least_squares;
 

@@ -7,22 +7,23 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/lanes.h"
 #include "base/mem.h"
 #include "bank/qp.h"
 
-enum { SWEEPS = 24, STEPS_PER_VARIABLE = 3 };
+enum { SWEEPS = 12, STEPS_PER_VARIABLE = 3 };
 static const double tolerance = 1e-10;
 
 int fap_qp_open(fap_qp *qp, int capacity, const fap_allocator *alloc)
 {
-    const size_t n = (size_t)capacity, doubles = 2 * n * n + 6 * n;
+    const size_t n = (size_t)fap_lanes_padded(capacity), doubles = 2 * n * n + 6 * n;
 
     memset(qp, 0, sizeof *qp);
     qp->block = fap_mem_calloc(alloc, doubles * sizeof(double) + n * (sizeof(int) + 1), 1);
     if (!qp->block)
         return 1;
     double *p = qp->block;
-    qp->capacity = capacity;
+    qp->capacity = (int)n;
     qp->gram = p;
     qp->factor = p + n * n;
     p += 2 * n * n;
@@ -62,25 +63,33 @@ static const double *row(const fap_qp *qp, int i)
     return qp->gram + (size_t)i * (size_t)qp->capacity;
 }
 
-static void start(fap_qp *qp)
+/* slope += by * the i-th row of G, which past n is 0. */
+static void tilt(fap_qp *qp, int i, double by)
 {
-    for (int i = 0; i < qp->n; i++)
-        qp->x[i] = clamp(0, qp->lo[i], qp->hi[i]);
-    for (int i = 0; i < qp->n; i++) {
-        double sum = -qp->linear[i];
-        for (int j = 0; j < qp->n; j++)
-            sum += row(qp, i)[j] * qp->x[j];
-        qp->slope[i] = sum;
-    }
+    const double *restrict g = row(qp, i);
+    double *restrict slope = qp->slope;
+
+    for (int j = 0; j < qp->n; j += FAP_LANES)
+        for (int k = 0; k < FAP_LANES; k++)
+            slope[j + k] += by * g[j + k];
 }
 
 static void move(fap_qp *qp, int i, double by)
 {
-    const double *g = row(qp, i);
-
     qp->x[i] += by;
-    for (int j = 0; j < qp->n; j++)
-        qp->slope[j] += by * g[j];
+    tilt(qp, i, by);
+}
+
+static void start(fap_qp *qp)
+{
+    memset(qp->slope, 0, sizeof *qp->slope * (size_t)qp->capacity);
+    for (int i = 0; i < qp->n; i++) {
+        qp->slope[i] -= qp->linear[i];
+        qp->x[i] = clamp(0, qp->lo[i], qp->hi[i]);
+    }
+    for (int i = 0; i < qp->n; i++)
+        if (qp->x[i] != 0)
+            tilt(qp, i, qp->x[i]);
 }
 
 /* One pass over the variables; returns the largest move. */

@@ -10,8 +10,8 @@
 #include <fap/alloc.h>
 
 typedef struct fap_qp {
-    int n; /* variables of this problem, at most capacity */
-    int capacity;
+    int n;                    /* variables of this problem, at most capacity */
+    int capacity;             /* a multiple of FAP_LANES */
     double *gram;             /* [n][capacity], both triangles */
     double *linear, *lo, *hi; /* [n] */
     double *x;                /* [n], the answer */
@@ -22,7 +22,7 @@ typedef struct fap_qp {
     void *block;
 } fap_qp;
 
-/* Non-zero: no memory. */
+/* Non-zero: no memory. @p capacity is rounded up. */
 int fap_qp_open(fap_qp *qp, int capacity, const fap_allocator *alloc);
 void fap_qp_close(fap_qp *qp, const fap_allocator *alloc);
 /* An empty problem of @p n variables: G, g and bounds zero. */

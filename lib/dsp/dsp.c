@@ -66,30 +66,30 @@ static void interleave_c(float (*out)[4], const float *xyz, size_t stride, size_
     }
 }
 
-static void triangle_normals_c(float (*out)[4], const float (*place)[4], const uint32_t *triangle,
-                               size_t count)
+static void quad_normals_c(float (*out)[4], const float (*place)[4], const uint32_t (*quad)[4], size_t count)
 {
-    for (size_t t = 0; t < count; t++, triangle += 3) {
-        const float *a = place[triangle[0]], *b = place[triangle[1]], *c = place[triangle[2]];
-        const float ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-        const float vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-        out[t][0] = uy * vz - uz * vy;
-        out[t][1] = uz * vx - ux * vz;
-        out[t][2] = ux * vy - uy * vx;
-        out[t][3] = 0;
+    for (size_t q = 0; q < count; q++) {
+        const float *a = place[quad[q][0]], *b = place[quad[q][1]];
+        const float *c = place[quad[q][2]], *d = place[quad[q][3]];
+        const float ux = c[0] - a[0], uy = c[1] - a[1], uz = c[2] - a[2];
+        const float vx = d[0] - b[0], vy = d[1] - b[1], vz = d[2] - b[2];
+        out[q][0] = uy * vz - uz * vy;
+        out[q][1] = uz * vx - ux * vz;
+        out[q][2] = ux * vy - uy * vx;
+        out[q][3] = 0;
     }
 }
 
-static void sum_normals_c(float *out, size_t stride, const float (*normals)[4], const uint32_t *start,
-                          const uint32_t *index, size_t count)
+static void sum_normals_c(float *out, size_t stride, const float (*normals)[4], const uint32_t *index,
+                          int width, size_t n)
 {
-    for (size_t v = 0; v < count; v++) {
-        float x = 0, y = 0, z = 0;
-        for (uint32_t i = start[v]; i < start[v + 1]; i++) {
-            const float *n = normals[index[i]];
-            x += n[0];
-            y += n[1];
-            z += n[2];
+    for (size_t v = 0; v < n; v++, index += width) {
+        float x = normals[index[0]][0], y = normals[index[0]][1], z = normals[index[0]][2];
+        for (int i = 1; i < width; i++) {
+            const float *normal = normals[index[i]];
+            x += normal[0];
+            y += normal[1];
+            z += normal[2];
         }
         out[v] = x;
         out[stride + v] = y;
@@ -124,8 +124,8 @@ unsigned fap_cpu_detect(void)
 
 void fap_dsp_init(fap_dsp *dsp, unsigned cpu)
 {
-    *dsp = (fap_dsp){ add_key_c,    add_key_regions_c,  add_field_c,   rotate_c,
-                      interleave_c, triangle_normals_c, sum_normals_c, normalise_c };
+    *dsp = (fap_dsp){ add_key_c,    add_key_regions_c, add_field_c,   rotate_c,
+                      interleave_c, quad_normals_c,    sum_normals_c, normalise_c };
 #if defined(__x86_64__) && defined(__GNUC__)
     fap_dsp_init_x86(dsp, cpu);
 #elif defined(__aarch64__) && defined(__GNUC__)

@@ -26,12 +26,11 @@ typedef struct fap_dsp {
     void (*rotate)(float *xyz, size_t stride, const float m[3][3], const float pivot[3], size_t n);
     /* out[v] = x y z 0 of each vertex; n a multiple of 8 */
     void (*interleave)(float (*out)[4], const float *xyz, size_t stride, size_t n);
-    /* out[t] = (b - a) x (c - a) of each triangle, twice its area long; out[t][3] = 0 */
-    void (*triangle_normals)(float (*out)[4], const float (*place)[4], const uint32_t *triangle,
-                             size_t count);
-    /* out[v] = sum of normals[index[i]] over start[v] <= i < start[v + 1], for count vertices */
-    void (*sum_normals)(float *out, size_t stride, const float (*normals)[4], const uint32_t *start,
-                        const uint32_t *index, size_t count);
+    /* out[q] = (c - a) x (d - b) of each quad, twice its area long; out[q][3] = 0 */
+    void (*quad_normals)(float (*out)[4], const float (*place)[4], const uint32_t (*quad)[4], size_t count);
+    /* out[v] = sum of normals[index[width * v + i]] over i < width; n a multiple of 8 */
+    void (*sum_normals)(float *out, size_t stride, const float (*normals)[4], const uint32_t *index,
+                        int width, size_t n);
     /* Unit length, or (0, 0, 1) for what is too short to have a direction; n a multiple of 8. */
     void (*normalise)(float *xyz, size_t stride, size_t n);
 } fap_dsp;

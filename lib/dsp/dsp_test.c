@@ -130,20 +130,19 @@ TEST(dsp, rotations_agree_to_the_bit)
     assert_memory_equal(a.xyz, b.xyz, sizeof a.xyz);
 }
 
-static void normals_of(const fap_dsp *dsp, const bed *b, float *out)
+static void normals_of(const fap_dsp *dsp, const bed *b, int width, float *out)
 {
-    enum { TRIANGLES = 30 };
-    static const uint32_t start[5] = { 0, 4, 4, 9, 12 };
-    uint32_t triangle[TRIANGLES * 3], index[12], seed = 9;
-    float place[N][4], normals[TRIANGLES][4];
+    enum { QUADS = 31 };
+    uint32_t quad[QUADS][4], index[8 * 6], seed = 9;
+    float place[N][4], normals[QUADS + 1][4] = { 0 };
 
-    for (int i = 0; i < TRIANGLES * 3; i++)
-        triangle[i] = next(&seed) % N;
-    for (int i = 0; i < 12; i++)
-        index[i] = next(&seed) % TRIANGLES;
+    for (int i = 0; i < QUADS * 4; i++)
+        quad[i / 4][i % 4] = next(&seed) % N;
+    for (int i = 0; i < 8 * width; i++) /* vertex 1 has no quad */
+        index[i] = i / width == 1 ? QUADS : next(&seed) % QUADS;
     dsp->interleave(place, b->xyz, N, N);
-    dsp->triangle_normals(normals, (const float(*)[4])place, triangle, TRIANGLES);
-    dsp->sum_normals(out, N, (const float(*)[4])normals, start, index, 4);
+    dsp->quad_normals(normals, (const float(*)[4])place, (const uint32_t(*)[4])quad, QUADS);
+    dsp->sum_normals(out, N, (const float(*)[4])normals, index, width, 8);
     dsp->normalise(out, N, 8);
 }
 
@@ -155,12 +154,14 @@ TEST(dsp, normals_agree_to_the_bit_and_are_unit_length)
     kernels(&plain, &best);
     fill(&a, 4);
     memset(out, 0, sizeof out);
-    normals_of(&plain, &a, out[0].xyz);
-    normals_of(&best, &a, out[1].xyz);
-    assert_memory_equal(out[0].xyz, out[1].xyz, sizeof a.xyz);
-    for (int v = 0; v < 8; v++) {
-        const float *n = out[1].xyz + v;
-        assert_float_equal(n[0] * n[0] + n[N] * n[N] + n[2 * N] * n[2 * N], 1, 1e-5);
+    for (int width = 4; width <= 6; width += 2) {
+        normals_of(&plain, &a, width, out[0].xyz);
+        normals_of(&best, &a, width, out[1].xyz);
+        assert_memory_equal(out[0].xyz, out[1].xyz, sizeof a.xyz);
+        for (int v = 0; v < 8; v++) {
+            const float *n = out[1].xyz + v;
+            assert_float_equal(n[0] * n[0] + n[N] * n[N] + n[2 * N] * n[2 * N], 1, 1e-5);
+        }
+        assert_true(out[1].xyz[2 * N + 1] == 1);
     }
-    assert_true(out[1].xyz[2 * N + 1] == 1); /* vertex 1 has no triangle */
 }

@@ -67,6 +67,7 @@ double bench_blend_us_ga(void);
 double bench_blend_us_ga4(void);
 double bench_pose_us_default(void);
 double bench_pose_us_26k(void);
+double bench_keys_us_26k(void);
 double bench_qp_us_50x60(void);
 /* Face animation tables: mean distance from the solver, and a pose. */
 double bench_fat_mm(void);

@@ -15,7 +15,7 @@
 #include "base/mem.h"
 #include "takes.h"
 
-enum { BATCHES = 12, FRAMES = 20, MODELS = 20, SEEDS = 10, PARTS = 3, QP_TARGETS = 50, QP_ROWS = 180 };
+enum { BATCHES = 40, FRAMES = 20, MODELS = 20, SEEDS = 10, PARTS = 3, QP_TARGETS = 50, QP_ROWS = 180 };
 
 typedef struct rig {
     fap_bank *bank;
@@ -312,7 +312,8 @@ static void solve_problem(const problem *p, fap_qp *qp)
             qp->linear[k] += p->a[r][k] * p->b[r];
     for (int k = 0; k < QP_TARGETS; k++)
         qp->hi[k] = 1;
-    memcpy(qp->gram, p->gram, sizeof p->gram);
+    for (int i = 0; i < QP_TARGETS; i++)
+        memcpy(qp->gram + i * qp->capacity, p->gram[i], sizeof p->gram[i]);
     fap_qp_solve(qp);
 }
 

@@ -67,16 +67,73 @@ static void rotate_neon(float *xyz, size_t stride, const float m[3][3], const fl
     }
 }
 
-static void sum_normals_neon(float *out, size_t stride, const float (*normals)[4], const uint32_t *start,
-                             const uint32_t *index, size_t count)
+static inline float32x4_t turn_left(float32x4_t v)
 {
-    for (size_t v = 0; v < count; v++) {
-        float32x4_t sum = vdupq_n_f32(0);
-        for (uint32_t i = start[v]; i < start[v + 1]; i++)
-            sum = vaddq_f32(sum, vld1q_f32(normals[index[i]]));
+    const float32x4_t yzwx = vextq_f32(v, v, 1);
+    return vcopyq_laneq_f32(yzwx, 2, v, 0); /* y z x x: the last is nobody's */
+}
+
+static void quad_normals_neon(float (*out)[4], const float (*place)[4], const uint32_t (*quad)[4],
+                              size_t count)
+{
+    for (size_t q = 0; q < count; q++) {
+        const float32x4_t u = vsubq_f32(vld1q_f32(place[quad[q][2]]), vld1q_f32(place[quad[q][0]]));
+        const float32x4_t v = vsubq_f32(vld1q_f32(place[quad[q][3]]), vld1q_f32(place[quad[q][1]]));
+        const float32x4_t zxy = vsubq_f32(vmulq_f32(u, turn_left(v)), vmulq_f32(turn_left(u), v));
+        vst1q_f32(out[q], vsetq_lane_f32(0, turn_left(zxy), 3));
+    }
+}
+
+/* The next vertex's sum, and past it. */
+static inline float32x4_t sum_round(const float (*normals)[4], const uint32_t **index, int width)
+{
+    float32x4_t sum = vld1q_f32(normals[(*index)[0]]);
+
+    for (int i = 1; i < width; i++)
+        sum = vaddq_f32(sum, vld1q_f32(normals[(*index)[i]]));
+    *index += width;
+    return sum;
+}
+
+static void sum_normals_neon(float *out, size_t stride, const float (*normals)[4], const uint32_t *index,
+                             int width, size_t n)
+{
+    for (size_t v = 0; v < n; v++) {
+        const float32x4_t sum = sum_round(normals, &index, width);
         vst1q_lane_f32(out + v, sum, 0);
         vst1q_lane_f32(out + stride + v, sum, 1);
         vst1q_lane_f32(out + 2 * stride + v, sum, 2);
+    }
+}
+
+static void interleave_neon(float (*out)[4], const float *xyz, size_t stride, size_t n)
+{
+    for (size_t v = 0; v < n; v += 4) {
+        const float32x4x4_t rows = { { vld1q_f32(xyz + v), vld1q_f32(xyz + stride + v),
+                                       vld1q_f32(xyz + 2 * stride + v), vdupq_n_f32(0) } };
+        vst4q_f32(out[v], rows);
+    }
+}
+
+static inline float32x4_t own_weight(const float *m, const float w[4])
+{
+    const float32x4_t a = vmulq_n_f32(vld1q_f32(m), w[0]), b = vmulq_n_f32(vld1q_f32(m + 8), w[1]);
+    const float32x4_t c = vmulq_n_f32(vld1q_f32(m + 16), w[2]), d = vmulq_n_f32(vld1q_f32(m + 24), w[3]);
+    return vaddq_f32(vaddq_f32(vaddq_f32(a, b), c), d);
+}
+
+static void add_key_regions_neon(float *xyz, size_t stride, const uint16_t *block, const int16_t *delta,
+                                 size_t block_count, const float *map, const float w[4])
+{
+    for (size_t b = 0; b < block_count; b++, delta += 24) {
+        const float32x4_t low = own_weight(map + 32u * block[b], w),
+                          high = own_weight(map + 32u * block[b] + 4, w);
+        float *dst = xyz + 8u * block[b];
+        for (int axis = 0; axis < 3; axis++, dst += stride) {
+            const int16x8_t d = vld1q_s16(delta + 8 * axis);
+            add_scaled(dst, vcvtq_f32_s32(vmovl_s16(vget_low_s16(d))), low);
+            add_scaled(dst + 4, vcvtq_f32_s32(vmovl_high_s16(d)), high);
+        }
     }
 }
 
@@ -101,8 +158,11 @@ void fap_dsp_init_arm(fap_dsp *dsp, unsigned cpu)
     if (!(cpu & FAP_CPU_NEON))
         return;
     dsp->add_key = add_key_neon;
+    dsp->add_key_regions = add_key_regions_neon;
     dsp->add_field = add_field_neon;
     dsp->rotate = rotate_neon;
+    dsp->interleave = interleave_neon;
+    dsp->quad_normals = quad_normals_neon;
     dsp->sum_normals = sum_normals_neon;
     dsp->normalise = normalise_neon;
 }

@@ -112,34 +112,60 @@ AVX2 static void interleave_avx2(float (*out)[4], const float *xyz, size_t strid
     }
 }
 
-AVX2 static inline __m128 turn_left(__m128 v)
+AVX2 static inline __m256 turn_left(__m256 v)
 {
-    return _mm_permute_ps(v, _MM_SHUFFLE(3, 0, 2, 1)); /* y z x */
+    return _mm256_permute_ps(v, _MM_SHUFFLE(3, 0, 2, 1)); /* y z x, in each half */
 }
 
-/* Gathering eight triangles at once was slower than one triangle in one register. */
-AVX2 static void triangle_normals_avx2(float (*out)[4], const float (*place)[4], const uint32_t *triangle,
-                                       size_t count)
+AVX2 static inline __m256 cross(__m256 u, __m256 v)
 {
-    for (size_t t = 0; t < count; t++, triangle += 3) {
-        const __m128 a = _mm_loadu_ps(place[triangle[0]]);
-        const __m128 u = _mm_sub_ps(_mm_loadu_ps(place[triangle[1]]), a);
-        const __m128 v = _mm_sub_ps(_mm_loadu_ps(place[triangle[2]]), a);
-        const __m128 zxy = _mm_sub_ps(_mm_mul_ps(u, turn_left(v)), _mm_mul_ps(turn_left(u), v));
-        _mm_storeu_ps(out[t], turn_left(zxy));
-    }
+    return turn_left(_mm256_sub_ps(_mm256_mul_ps(u, turn_left(v)), _mm256_mul_ps(turn_left(u), v)));
 }
 
-AVX2 static void sum_normals_avx2(float *out, size_t stride, const float (*normals)[4], const uint32_t *start,
-                                  const uint32_t *index, size_t count)
+AVX2 static inline __m256 load_two(const float low[4], const float high[4])
 {
-    for (size_t v = 0; v < count; v++) {
-        __m128 sum = _mm_setzero_ps();
-        for (uint32_t i = start[v]; i < start[v + 1]; i++)
-            sum = _mm_add_ps(sum, _mm_loadu_ps(normals[index[i]]));
-        _mm_store_ss(out + v, sum);
-        _mm_store_ss(out + stride + v, _mm_movehdup_ps(sum));
-        _mm_store_ss(out + 2 * stride + v, _mm_movehl_ps(sum, sum));
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+
+/* Gathering eight quads at once was slower than two in one register. */
+AVX2 static inline __m256 two_quads(const float (*place)[4], const uint32_t *q, const uint32_t *r)
+{
+    const __m256 u = _mm256_sub_ps(load_two(place[q[2]], place[r[2]]), load_two(place[q[0]], place[r[0]]));
+    const __m256 v = _mm256_sub_ps(load_two(place[q[3]], place[r[3]]), load_two(place[q[1]], place[r[1]]));
+    return cross(u, v);
+}
+
+AVX2 static void quad_normals_avx2(float (*out)[4], const float (*place)[4], const uint32_t (*quad)[4],
+                                   size_t count)
+{
+    size_t q = 0;
+
+    for (; q + 2 <= count; q += 2)
+        _mm256_storeu_ps(out[q], two_quads(place, quad[q], quad[q + 1]));
+    if (q < count)
+        _mm_storeu_ps(out[q], _mm256_castps256_ps128(two_quads(place, quad[q], quad[q])));
+}
+
+AVX2 static inline __m128 sum_round(const float (*normals)[4], const uint32_t *index, int width)
+{
+    __m128 sum = _mm_loadu_ps(normals[index[0]]);
+
+    for (int i = 1; i < width; i++)
+        sum = _mm_add_ps(sum, _mm_loadu_ps(normals[index[i]]));
+    return sum;
+}
+
+AVX2 static void sum_normals_avx2(float *out, size_t stride, const float (*normals)[4], const uint32_t *index,
+                                  int width, size_t n)
+{
+    for (float *p = out; p < out + n; p += 4, index += 4 * width) {
+        __m128 x = sum_round(normals, index, width), y = sum_round(normals, index + width, width);
+        __m128 z = sum_round(normals, index + 2 * width, width),
+               w = sum_round(normals, index + 3 * width, width);
+        _MM_TRANSPOSE4_PS(x, y, z, w);
+        _mm_store_ps(p, x);
+        _mm_store_ps(p + stride, y);
+        _mm_store_ps(p + 2 * stride, z);
     }
 }
 
@@ -169,7 +195,7 @@ void fap_dsp_init_x86(fap_dsp *dsp, unsigned cpu)
     dsp->add_field = add_field_avx2;
     dsp->rotate = rotate_avx2;
     dsp->interleave = interleave_avx2;
-    dsp->triangle_normals = triangle_normals_avx2;
+    dsp->quad_normals = quad_normals_avx2;
     dsp->sum_normals = sum_normals_avx2;
     dsp->normalise = normalise_avx2;
 }
