@@ -114,10 +114,15 @@ int64_t timeline_time_us(int64_t k, double rate_hz)
     return (int64_t)((double)k * 1e6 / rate_hz + 0.5);
 }
 
+int64_t timeline_count_frames(int64_t length_us, double rate_hz)
+{
+    const int64_t count = (int64_t)ceil((double)(length_us - same_us) * rate_hz * 1e-6);
+    return count > 1 ? count : 1;
+}
+
 int64_t timeline_frame_count(const timeline *t, double rate_hz)
 {
-    const int64_t count = (int64_t)ceil((double)(t->end_us - same_us) * rate_hz * 1e-6);
-    return count > 1 ? count : 1;
+    return timeline_count_frames(t->end_us, rate_hz);
 }
 
 /* The last stream frame that has begun at @time_us; the first one before that. */

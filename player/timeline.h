@@ -36,6 +36,8 @@ void timeline_free(timeline *t);
 /* How many frames of @rate_hz begin before the stream is over. At the stream's own rate: as many as it has.
  */
 int64_t timeline_frame_count(const timeline *t, double rate_hz);
+/* The same of anything that lasts @length_us; at least 1. */
+int64_t timeline_count_frames(int64_t length_us, double rate_hz);
 /* When output frame @k begins, microseconds. */
 int64_t timeline_time_us(int64_t k, double rate_hz);
 /*
