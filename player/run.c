@@ -1,31 +1,21 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See run.h. */
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "common/file.h"
-#include "common/fit_file.h"
 #include "common/tool.h"
-#include "player/find_bank.h"
+#include "player/audio/sound_file.h"
 #include "player/plan.h"
 #include "player/render/renderer.h"
 #include "player/run.h"
-#include "player/audio/sound_file.h"
-#include "player/timeline.h"
+#include "player/scene.h"
 
 typedef struct player {
     const play_options *opt;
     play_report *report;
-    timeline line;
-    fap_fit *fit;
-    fap_bank *bank;
-    fap_face *face;
-    float *position, *normal; /* one block; normals are for pictures only */
-    float point[FAP_POINT_COUNT][3];
+    scene scene;
     renderer *renderer;
     image picture;
     frame_plan plan;
@@ -35,63 +25,15 @@ typedef struct player {
 
 /* --- what goes in --- */
 
-static const size_t max_stream = (size_t)1 << 30;
-
-/* Lines of a .fap, bits of an .fba; and planes that were lost. */
-static void note_deviations(player *p, const stream_summary *s, const char *where)
+static int load_scene(player *p)
 {
-    const char *const place = strcmp(s->format, "fba") ? "line" : "bit";
+    const play_options *o = p->opt;
+    play_report *r = p->report;
 
-    for (int i = 0; i < s->notice_count; i++)
-        play_report_note(p->report, "%s: %s %" PRId64 ": %s", p->opt->stream, place, s->notice[i].where,
-                         s->notice[i].text);
-    if (s->broken_planes)
-        play_report_note(p->report, "%s: %" PRIu64 " planes are broken: %s", p->opt->stream, s->broken_planes,
-                         where);
-}
-
-/* The table of --fit; for an .fba, else the one beside it. */
-static int find_fit(player *p, int reads_bits)
-{
-    char where[FAP_ERROR_TEXT_SIZE], beside[REPORT_TEXT_SIZE];
-    const char *path = p->opt->fit;
-
-    if (!path && reads_bits && fit_file_beside(p->opt->stream, beside, sizeof beside)) {
-        path = beside;
-        play_report_note(p->report, "interpolates by %s", path);
-    }
-    if (path && fit_file_read(&p->fit, path, where))
-        return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", path, where);
-    return 1;
-}
-
-static int load_stream(player *p)
-{
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-    stream_summary summary;
-    uint8_t *data;
-    size_t size;
-    fap_err err = file_read(p->opt->stream, max_stream, &data, &size);
-
-    if (err)
-        return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream,
-                         err == FAP_E_IO ? strerror(errno) : fap_strerror(err));
-    if (!find_fit(p, stream_is_bits(data, size))) {
-        free(data);
+    if (!scene_load_stream(&p->scene, o->stream, o->fit, r))
         return 0;
-    }
-    const stream_options reading = { .fit = p->fit };
-    err = timeline_load(&p->line, data, size, &reading, &summary, where);
-    free(data);
-    if (err)
-        return fault_set(&p->report->fault, EXIT_DATA, "%s: %s", p->opt->stream,
-                         where[0] ? where : fap_strerror(err));
-    note_deviations(p, &summary, where);
-    p->report->stream_frames = (int64_t)summary.frames;
-    p->report->stream_rate_hz = p->line.rate_hz;
-    p->report->stream_s = (double)p->line.end_us * 1e-6;
-    p->report->rate_hz = p->opt->rate_hz > 0 ? p->opt->rate_hz : p->line.rate_hz;
-    return 1;
+    r->rate_hz = o->rate_hz > 0 ? o->rate_hz : r->stream_rate_hz;
+    return scene_load_bank(&p->scene, o->bank, &o->face, o->sink->needs_picture, r);
 }
 
 /* Before anything is drawn: a long film should not end at a sound that is none. */
@@ -112,29 +54,12 @@ static int check_sound(player *p)
     return 1;
 }
 
-static int open_face(player *p)
-{
-    if (!find_bank(&p->bank, p->opt->bank, p->report))
-        return 0;
-    snprintf(p->report->face, sizeof p->report->face, "%s", fap_bank_name(p->bank));
-    const fap_err err = fap_face_open(&p->face, p->bank, &p->opt->face);
-    if (err)
-        return fault_set(&p->report->fault, EXIT_DATA, "%s: this face cannot be posed: %s", p->report->face,
-                         fap_strerror(err));
-    const size_t floats = 3 * fap_face_stride(p->face);
-    p->position = aligned_alloc(32, 2 * floats * sizeof(float));
-    if (!p->position)
-        return fault_set(&p->report->fault, EXIT_DATA, "out of memory");
-    p->normal = p->opt->sink->needs_picture ? p->position + floats : NULL;
-    return 1;
-}
-
 /* --- which frames --- */
 
 /* The part of --frames that the stream has. */
 static int clip_range(player *p, int64_t *from, int64_t *to)
 {
-    const int64_t count = timeline_frame_count(&p->line, p->report->rate_hz);
+    const int64_t count = timeline_frame_count(&p->scene.line, p->report->rate_hz);
 
     *from = p->opt->from;
     *to = p->opt->to < count ? p->opt->to : count;
@@ -170,7 +95,7 @@ static int open_renderer(player *p)
 
     if (!o->sink->needs_picture)
         return 1;
-    const fap_err err = renderer_create(&p->renderer, o->gl, p->bank, o->width, o->height, where);
+    const fap_err err = renderer_create(&p->renderer, o->gl, p->scene.bank, o->width, o->height, where);
     if (err == FAP_E_UNSUPPORTED)
         return fault_set(
             &p->report->fault, EXIT_MISSING,
@@ -199,7 +124,7 @@ static int open_sink(player *p)
         .rate_hz = p->report->rate_hz,
         .from = frame_plan_at(&p->plan, 0),
         .count = p->plan.count,
-        .bank = p->bank,
+        .bank = p->scene.bank,
     };
     p->sink_state = calloc(1, o->sink->state_size);
     if (!p->sink_state)
@@ -207,37 +132,24 @@ static int open_sink(player *p)
     return o->sink->open(p->sink_state, &p->setup, &p->report->fault);
 }
 
-static void pose(player *p, int64_t number)
-{
-    fap_frame frame;
-    fap_face_stats stats;
-
-    timeline_sample(&p->line, timeline_time_us(number, p->report->rate_hz), &frame);
-    fap_face_pose(p->face, &frame, p->position, p->normal);
-    fap_face_points(p->face, p->point);
-    fap_face_last_stats(p->face, &stats);
-    p->report->error_mm = fmax(p->report->error_mm, stats.target_error_mm);
-    p->report->residual_mm = fmax(p->report->residual_mm, stats.residual_error_mm);
-}
-
 static int draw(player *p)
 {
     if (!p->renderer)
         return 1;
-    const render_scene scene = { p->position, p->normal, .view = render_view_of(p->opt->camera) };
-    const fap_err err = renderer_draw(p->renderer, &scene, &p->picture);
+    const render_scene what = { p->scene.position, p->scene.normal, .view = render_view_of(p->opt->camera) };
+    const fap_err err = renderer_draw(p->renderer, &what, &p->picture);
     return err ? fault_set(&p->report->fault, EXIT_DATA, "drawing failed: %s", fap_strerror(err)) : 1;
 }
 
 static int show_frame(player *p, int64_t number)
 {
-    pose(p, number);
+    scene_pose(&p->scene, timeline_time_us(number, p->report->rate_hz), 0, p->report);
     if (!draw(p))
         return 0;
     const shown_frame shown = {
         .number = number,
         .time_s = (double)number / p->report->rate_hz,
-        .point = (const float(*)[3])p->point,
+        .point = (const float(*)[3])p->scene.point,
         .picture = p->renderer ? &p->picture : NULL,
     };
     return p->opt->sink->show(p->sink_state, &shown, &p->report->fault);
@@ -265,19 +177,15 @@ static void close_all(player *p)
     free(p->sink_state);
     image_free(&p->picture);
     renderer_destroy(&p->renderer);
-    free(p->position);
-    fap_face_close(&p->face);
-    fap_bank_close(&p->bank);
-    timeline_free(&p->line);
-    fap_fit_close(&p->fit);
+    scene_free(&p->scene);
 }
 
 void play_run(const play_options *o, play_report *r)
 {
     player p = { .opt = o, .report = r };
 
-    if (load_stream(&p) && check_sound(&p) && open_face(&p) && make_plan(&p) && open_renderer(&p) &&
-        open_sink(&p) && show_all(&p))
+    if (load_scene(&p) && check_sound(&p) && make_plan(&p) && open_renderer(&p) && open_sink(&p) &&
+        show_all(&p))
         o->sink->finish(p.sink_state, &r->result, &r->fault);
     close_all(&p);
 }
