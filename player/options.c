@@ -128,6 +128,16 @@ static int set_generations(play_options *o, const char *text)
     return small_integer(text, 0, MAX_GENERATIONS, &o->face.generations);
 }
 
+static int set_temporal(play_options *o, const char *text)
+{
+    double mm2;
+
+    if (!real_number(text, 0, 1e6, &mm2))
+        return 0;
+    o->face.temporal_mm2 = (float)mm2;
+    return 1;
+}
+
 static int set_emphasis(play_options *o, const char *text)
 {
     double c;
@@ -269,6 +279,7 @@ static const option_row rows[] = {
     { "crossover", set_crossover, "midpoint, line or blx" },
     { "generations", set_generations, "a number from 0 to 100000" },
     { "emphasis", set_emphasis, "a number from 0 to 10" },
+    { "temporal", set_temporal, "square millimetres, 0 to 1000000" },
     { "seed", set_seed, "a whole number, not negative" },
     { "no-residual", set_no_residual, NULL },
     { "blink", set_blink, NULL },
@@ -325,6 +336,8 @@ static const char help_text[] =
     "  --crossover X            of the genetic algorithm: midpoint, line or blx (line)\n"
     "  --generations N          of the genetic algorithm (70)\n"
     "  --emphasis C             targets times C before blending (1)\n"
+    "  --temporal MM2           qp and ga: price of changing a weight by one from frame to frame, calms "
+    "noisy takes (0)\n"
     "  --seed N                 equal seeds give equal faces (1)\n"
     "  --no-residual            leave the feature points where blending puts them\n"
     "  --blink                  blink now and then while the stream does not move the lids\n"

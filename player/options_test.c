@@ -58,15 +58,17 @@ TEST(play_options, every_option_of_the_face_arrives)
 {
     play_options o;
 
-    takes(&o, "--bank b.fbank --blend zhu --crossover blx --generations 5 --emphasis 1.5 --seed 9 "
-              "--no-residual --blink --regions 4 --overlap 12.5 "
-              "- --output null");
+    takes(&o,
+          "--bank b.fbank --blend zhu --crossover blx --generations 5 --emphasis 1.5 --temporal 20 --seed 9 "
+          "--no-residual --blink --regions 4 --overlap 12.5 "
+          "- --output null");
     assert_string_equal(o.stream, "-");
     assert_string_equal(o.bank, "b.fbank");
     assert_int_equal(o.face.blend, FAP_BLEND_ZHU);
     assert_int_equal(o.face.crossover, FAP_CROSSOVER_BLX);
     assert_int_equal(o.face.generations, 5);
     assert_float_equal(o.face.emphasis, 1.5, 0);
+    assert_float_equal(o.face.temporal_mm2, 20, 0);
     assert_int_equal(o.face.seed, 9);
     assert_int_equal(o.face.residual, 0);
     assert_int_equal(o.face.blink, 1);
@@ -172,6 +174,7 @@ TEST(play_options, wrong_values_are_refused)
         "--generations 100001",
         "--emphasis -1",
         "--emphasis 11",
+        "--temporal -1",
         "--seed -1",
         "--seed 0x1",
         "--camera back",

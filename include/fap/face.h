@@ -47,6 +47,12 @@ typedef struct fap_face_config {
     int regions; /**< 1, or 2 (left, right) or 4 (each half upper and lower): ZHU and GA solve each by itself */
     float
         overlap_percent; /**< 20: of the face's width, on either side of a border, shaped by both; 0 to 50 */
+    /**
+     * 0; else QP and GA charge this many square millimetres for changing a weight by one since the pose before: noise in the
+     * targets shows less, quick motion comes later. 1 is a little, 100 is a lot; up to 1e6. A pose then depends on the one
+     * before it, if that was at most 0.1 s earlier.
+     */
+    float temporal_mm2;
 } fap_face_config;
 
 /** Sets every default. */
@@ -75,7 +81,8 @@ FAP_API void fap_face_close(fap_face **face);
 FAP_API size_t fap_face_stride(const fap_face *face);
 
 /**
- * Pose the face. Depends on @p frame alone, not on earlier calls: seeking and pausing need no care.
+ * Pose the face. Depends on @p frame alone, not on earlier calls, unless temporal_mm2 is set: seeking and pausing need no
+ * care.
  * FAPs of state FAP_ABSENT leave their axis free; all others are targets, absolute from neutral. Visemes and expressions
  * are laid down first, low-level FAPs override them where both speak. Every value is accepted: absurd ones end in a
  * distorted face, not in a broken one. With cfg.residual a commanded point is off by no more than rounding, except where

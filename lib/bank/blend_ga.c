@@ -17,8 +17,9 @@ enum { SHARE_STEPS = 14 };
 
 typedef struct state {
     fap_least_squares ls;
-    fap_zhu zhu;  /* its algorithm, and its answer to compare with */
-    float *trial; /* [FAP_REGION_MAX][key_count] */
+    fap_zhu zhu;   /* its algorithm, and its answer to compare with */
+    float *trial;  /* [FAP_REGION_MAX][key_count] */
+    float *before; /* [FAP_REGION_MAX][key_count]: the answer of the pose before */
 } state;
 
 /* What the GA compares in a region: rows, where they should go, what a square millimetre counts. */
@@ -34,7 +35,8 @@ static int open_ga(void *user, const fap_face *face)
     const size_t n = FAP_REGION_MAX * (size_t)face->key_count;
 
     s->trial = fap_mem_calloc(&face->alloc, n, sizeof *s->trial);
-    return !s->trial || fap_least_squares_open(&s->ls, face) || fap_zhu_open(&s->zhu, face);
+    s->before = fap_mem_calloc(&face->alloc, n, sizeof *s->before);
+    return !s->trial || !s->before || fap_least_squares_open(&s->ls, face) || fap_zhu_open(&s->zhu, face);
 }
 
 static void close_ga(void *user, const fap_face *face)
@@ -44,6 +46,7 @@ static void close_ga(void *user, const fap_face *face)
     fap_least_squares_close(&s->ls, face);
     fap_zhu_close(&s->zhu, face);
     fap_mem_free(&face->alloc, s->trial);
+    fap_mem_free(&face->alloc, s->before);
 }
 
 static void aim_at(aim *a, int row, float target, float weight)
@@ -113,10 +116,14 @@ static void add_key(fap_ga *ga, const fap_face *face, const aim *a, int key)
         vector[r] = face->motion[(size_t)a->row[r] * (size_t)face->key_count + (size_t)key];
 }
 
-static void seed_population(fap_ga *ga, const fap_face *face, const aim *a, const float *weight)
+/* @before: the last pose's weights, where they count; or NULL */
+static void seed_population(fap_ga *ga, const fap_face *face, const aim *a, const float *weight,
+                            const float *before)
 {
     fap_ga_clear(ga);
     add_weights(ga, face, a, weight);
+    if (before)
+        add_weights(ga, face, a, before);
     for (int k = 0; k < face->key_count; k++)
         if (face->population[k])
             add_key(ga, face, a, k);
@@ -155,7 +162,8 @@ static void improve(state *s, fap_face *face, int region)
     const float before_mm = weighted_rms(face, &a, own);
     if (before_mm < worth_it_mm)
         return;
-    seed_population(&s->zhu.ga, face, &a, own);
+    seed_population(&s->zhu.ga, face, &a, own,
+                    face->follows_on ? fap_blend_region(face, s->before, region) : NULL);
     const fap_ga_task task = { .target = a.target,
                                .row_weight = a.weight,
                                .size = fap_lanes_padded(a.count),
@@ -259,6 +267,7 @@ static void solve_ga(void *user, fap_face *face)
     for (int r = 0; r < face->regions.count; r++)
         improve(s, face, r);
     keep_up(s, face);
+    memcpy(s->before, face->weight, sizeof *s->before * FAP_REGION_MAX * (size_t)face->key_count);
 }
 
 const fap_blend_method fap_blend_ga = {

@@ -41,7 +41,8 @@ static int read_config(fap_face_config *cfg, const fap_face_config *from)
     const int regions = cfg->regions == 1 || cfg->regions == 2 || cfg->regions == 4;
     return fap_blend_name((int)cfg->blend) && cfg->crossover <= FAP_CROSSOVER_BLX && cfg->generations >= 0 &&
            cfg->generations <= MOST_GENERATIONS && cfg->emphasis >= 0 && cfg->emphasis <= 10 && regions &&
-           cfg->overlap_percent >= 0 && cfg->overlap_percent <= 50;
+           cfg->overlap_percent >= 0 && cfg->overlap_percent <= 50 && cfg->temporal_mm2 >= 0 &&
+           cfg->temporal_mm2 <= 1e6f;
 }
 
 /* --- open and close --- */
@@ -335,9 +336,21 @@ static void finish(fap_face *face, const float *position, float *normal)
         fap_normals_compute(&face->normals, &face->dsp, face->mesh->stride, position, normal);
 }
 
+/* Whether the pose before is near enough in time to hold on to. */
+static void keep_time(fap_face *face, int64_t pts_us)
+{
+    const int64_t longest_us = 100000;
+
+    face->follows_on = face->cfg.temporal_mm2 > 0 && face->has_posed && pts_us > face->last_pts_us &&
+                       pts_us - face->last_pts_us <= longest_us;
+    face->has_posed = 1;
+    face->last_pts_us = pts_us;
+}
+
 void fap_face_pose(fap_face *face, const fap_frame *frame, float *position, float *normal)
 {
     assert(((uintptr_t)position & 31) == 0 && ((uintptr_t)normal & 31) == 0);
+    keep_time(face, frame->pts_us);
     fap_face_lay_base(face, frame);
     fap_face_read_targets(face, frame);
     fap_face_solve(face);
@@ -352,6 +365,7 @@ void fap_face_pose_points(fap_face *face, const float target_mm[FAP_POINT_COUNT]
     const fap_frame still = { 0 };
 
     assert(((uintptr_t)position & 31) == 0 && ((uintptr_t)normal & 31) == 0);
+    keep_time(face, face->last_pts_us + 1); /* points have no time: each call follows the one before */
     fap_face_lay_base(face, &still);
     fap_face_take_targets(face, target_mm, wanted);
     fap_face_solve(face);

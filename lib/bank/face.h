@@ -68,7 +68,12 @@ struct fap_face {
     const fap_blend_method *method;
     void *state; /* the method's */
 
+    /* the pose before */
+    int has_posed;
+    int64_t last_pts_us;
+
     /* this frame */
+    int follows_on;                     /* temporal_mm2 counts: the pose before is near */
     float asked[FAP_POINT_COUNT][3];    /* from neutral, millimetres */
     float target[FAP_POINT_COUNT][3];   /* the same as far as lids can follow */
     uint8_t wanted[FAP_POINT_COUNT][3]; /* of solvable points only */

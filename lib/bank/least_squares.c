@@ -129,7 +129,8 @@ static int open_problems(fap_least_squares *ls, const fap_face *face)
         p->base_count = -1;
         p->gram = fap_mem_calloc(&face->alloc, size * size, sizeof *p->gram);
         p->variable = fap_mem_calloc(&face->alloc, size, sizeof *p->variable);
-        if (!p->gram || !p->variable)
+        p->last = fap_mem_calloc(&face->alloc, size, sizeof *p->last);
+        if (!p->gram || !p->variable || !p->last)
             return 1;
     }
     return 0;
@@ -140,6 +141,7 @@ static void close_problems(fap_least_squares *ls, const fap_face *face)
     for (int i = 0; i < ls->problem_count; i++) {
         fap_mem_free(&face->alloc, ls->problem[i].gram);
         fap_mem_free(&face->alloc, ls->problem[i].variable);
+        fap_mem_free(&face->alloc, ls->problem[i].last);
     }
     fap_mem_free(&face->alloc, ls->problem);
 }
@@ -316,7 +318,8 @@ static void add_row(fap_least_squares *ls, const fap_face *face, fap_problem *p,
 
 static int is_made_for(const fap_problem *p, const fap_face *face)
 {
-    return p->base_count == face->base_count && p->has_base_jaw == has_base_jaw(face) &&
+    return p->base_count == face->base_count && p->follows_on == face->follows_on &&
+           p->has_base_jaw == has_base_jaw(face) &&
            !memcmp(p->base_key, face->base_key, sizeof *p->base_key * (size_t)p->base_count) &&
            !memcmp(p->wanted, face->wanted, sizeof p->wanted);
 }
@@ -329,6 +332,7 @@ static void make_problem(fap_least_squares *ls, const fap_face *face, int region
     memcpy(p->base_key, face->base_key, sizeof p->base_key);
     p->base_count = face->base_count;
     p->has_base_jaw = has_base_jaw(face);
+    p->follows_on = face->follows_on;
     memset(p->gram, 0, size * size * sizeof *p->gram);
     fap_blend_beside(face, -1, ls->basis, (size_t)face->key_count + 1, ls->beside);
     list_variables(ls, face, p);
@@ -336,8 +340,9 @@ static void make_problem(fap_least_squares *ls, const fap_face *face, int region
     for (int r = 0; r < face->row_count; r++)
         if (weight_of(face, region, face->row[r]) > 0)
             add_row(ls, face, p, face->row[r], weight_of(face, region, face->row[r]));
-    for (size_t i = 0; i < (size_t)p->n && region >= 0; i++)
-        p->gram[i * size + i] += tie_mm2;
+    const double held = (region >= 0 ? tie_mm2 : 0) + (p->follows_on ? face->cfg.temporal_mm2 : 0);
+    for (size_t i = 0; i < (size_t)p->n; i++)
+        p->gram[i * size + i] += held;
 }
 
 /* --- this frame's targets --- */
@@ -382,6 +387,8 @@ static void set_targets(fap_least_squares *ls, const fap_face *face, int region,
             qp->linear[i] += base_hold_mm2 * qp->hi[i];
         if (region >= 0)
             qp->linear[i] += tie_mm2 * ls->whole[i];
+        if (p->follows_on)
+            qp->linear[i] += face->cfg.temporal_mm2 * p->last[column];
     }
 }
 
@@ -413,6 +420,9 @@ static void solve(fap_least_squares *ls, const fap_face *face, int region, float
     ls->qp.n = p->n;
     set_targets(ls, face, region, p);
     fap_qp_solve(&ls->qp);
+    memset(p->last, 0, ((size_t)face->key_count + 1) * sizeof *p->last);
+    for (int i = 0; i < p->n; i++)
+        p->last[p->variable[i]] = (float)ls->qp.x[i];
     read_answer(ls, face, p, weight);
 }
 

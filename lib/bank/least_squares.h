@@ -24,9 +24,10 @@ typedef struct fap_rivals {
  */
 typedef struct fap_problem {
     uint8_t wanted[FAP_POINT_COUNT][3];
-    int base_count, base_key[4], has_base_jaw; /* base_count -1: not made yet */
-    int n, *variable;                          /* column of each variable */
-    double *gram;                              /* as fap_qp has it */
+    int base_count, base_key[4], has_base_jaw, follows_on; /* base_count -1: not made yet */
+    int n, *variable;                                      /* column of each variable */
+    double *gram;                                          /* as fap_qp has it */
+    float *last;                                           /* [key_count + 1]: the last answer, by column */
 } fap_problem;
 
 typedef struct fap_least_squares {

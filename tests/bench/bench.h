@@ -80,6 +80,7 @@ double bench_fitness_zhu2(void);
 double bench_fitness_zhu4(void);
 double bench_fitness_ga(void);
 double bench_temporal_jitter_mm(void);
+double bench_temporal_jitter_held_mm(void);
 double bench_pca_ccr_3(void);
 
 /* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */

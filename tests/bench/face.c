@@ -218,15 +218,17 @@ static float tremble(uint32_t *seed)
 }
 
 /* RMS over vertices and frames of the way from one frame to the next; a still target gives 0. */
-double bench_temporal_jitter_mm(void)
+static double jitter_mm(float temporal_mm2)
 {
-    const fap_face_config cfg = config(FAP_BLEND_GA, 1);
+    fap_face_config cfg = config(FAP_BLEND_GA, 1);
     uint8_t wanted[FAP_POINT_COUNT][3];
     float mm[FAP_POINT_COUNT][3], noisy[FAP_POINT_COUNT][3], *last;
     double sum = 0;
     uint32_t seed = 5;
     rig r;
 
+    cfg.temporal_mm2 = temporal_mm2;
+    cfg.residual = temporal_mm2 <= 0; /* it would put the points on their noise again */
     if (!open_rig(&r, &cfg))
         return -1;
     const uint32_t count = fap_bank_mesh(r.bank)->vertex_count;
@@ -244,6 +246,16 @@ double bench_temporal_jitter_mm(void)
     }
     close_rig(&r);
     return sqrt(sum / ((double)count * FRAMES));
+}
+
+double bench_temporal_jitter_mm(void)
+{
+    return jitter_mm(0);
+}
+
+double bench_temporal_jitter_held_mm(void)
+{
+    return jitter_mm(100);
 }
 
 /* --- principal components --- */

@@ -88,6 +88,8 @@ const bench_figure bench_figures[] = {
     { "temporal_jitter_mm", "mm", bench_temporal_jitter_mm,
       "RMS from frame to frame over the default face, noise of 0.1 mm RMS on every axis of every point",
       "a face" },
+    { "temporal_jitter_held_mm", "mm", bench_temporal_jitter_held_mm,
+      "the same with temporal_mm2 100 and without the residual", "a face" },
     { "pca_ccr_3", "share", bench_pca_ccr_3,
       "of the variance of the six expressions in three components; Yano et al. have 0.956 for six visemes",
       "a face" },
