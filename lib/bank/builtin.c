@@ -15,18 +15,28 @@
 /* Where a point of the left half or the midline is; its mirror image serves the right half. */
 typedef struct place {
     const char *point;
-    enum { AT_UPPER, AT_LOWER, AT_EYE, AT_TEETH_UPPER, AT_TEETH_LOWER, AT_TONGUE, AT_FIXED } at;
-    int row, column; /* of the grid; first vertex of the part onwards: column */
+    enum {
+        AT_UPPER,
+        AT_LOWER,
+        AT_LIP_UPPER,
+        AT_LIP_LOWER,
+        AT_EYE,
+        AT_TEETH_UPPER,
+        AT_TEETH_LOWER,
+        AT_TONGUE,
+        AT_FIXED
+    } at;
+    int row, column; /* of the grid, the tongue, or the edges of the teeth; columns count from the midline */
     float fixed[3];  /* AT_FIXED */
 } place;
 
 static const place places[] = {
     { "2.1", AT_UPPER, 17, 0, { 0 } },
-    { "2.2", AT_UPPER, ROW_MOUTH, 0, { 0 } },
-    { "2.3", AT_LOWER, ROW_MOUTH, 0, { 0 } },
-    { "2.4", AT_UPPER, ROW_MOUTH, MOUTH_CORNER, { 0 } },
-    { "2.6", AT_UPPER, ROW_MOUTH, 2, { 0 } },
-    { "2.8", AT_LOWER, ROW_MOUTH, 2, { 0 } },
+    { "2.2", AT_LIP_UPPER, 0, 0, { 0 } },
+    { "2.3", AT_LIP_LOWER, 0, 0, { 0 } },
+    { "2.4", AT_LIP_UPPER, 0, MOUTH_CORNER, { 0 } },
+    { "2.6", AT_LIP_UPPER, 0, 2, { 0 } },
+    { "2.8", AT_LIP_LOWER, 0, 2, { 0 } },
     { "2.10", AT_UPPER, 16, 0, { 0 } },
     { "2.11", AT_UPPER, 17, 4, { 0 } },
     { "2.13", AT_UPPER, 13, 9, { 0 } },
@@ -42,9 +52,9 @@ static const place places[] = {
     { "4.5", AT_UPPER, ROW_BROW, 7, { 0 } },
     { "5.1", AT_UPPER, ROW_MOUTH, 7, { 0 } },
     { "5.3", AT_UPPER, 9, 7, { 0 } },
-    { "6.1", AT_TONGUE, 0, 10, { 0 } },
-    { "6.2", AT_TONGUE, 0, 4, { 0 } },
-    { "6.3", AT_TONGUE, 0, 5, { 0 } },
+    { "6.1", AT_TONGUE, TONGUE_ROWS - 1, 0, { 0 } },
+    { "6.2", AT_TONGUE, 3, 0, { 0 } },
+    { "6.3", AT_TONGUE, 3, TONGUE_COLUMNS / 2, { 0 } },
     { "7.1", AT_FIXED, 0, 0, { 0 } },
     { "8.1", AT_UPPER, ROW_MOUTH - 1, 0, { 0 } },
     { "8.2", AT_UPPER, ROW_MOUTH + 1, 0, { 0 } },
@@ -56,10 +66,10 @@ static const place places[] = {
     { "9.3", AT_UPPER, 10, 0, { 0 } },
     { "9.5", AT_UPPER, 11, 2, { 0 } },
     { "9.7", AT_UPPER, 6, 1, { 0 } },
-    { "9.8", AT_TEETH_UPPER, 0, 2, { 0 } },
-    { "9.9", AT_TEETH_LOWER, 0, 7, { 0 } },
-    { "9.10", AT_TEETH_UPPER, 0, 7, { 0 } },
-    { "9.11", AT_TEETH_LOWER, 0, 2, { 0 } },
+    { "9.8", AT_TEETH_UPPER, 0, 0, { 0 } },
+    { "9.9", AT_TEETH_LOWER, 1, 0, { 0 } },
+    { "9.10", AT_TEETH_UPPER, 1, 0, { 0 } },
+    { "9.11", AT_TEETH_LOWER, 0, 0, { 0 } },
     { "9.12", AT_UPPER, 8, 0, { 0 } },
     { "9.13", AT_UPPER, 8, 2, { 0 } },
     { "9.15", AT_UPPER, 11, 0, { 0 } },
@@ -78,23 +88,30 @@ static const place places[] = {
 /* What is needed only while the bank is made. */
 typedef struct maker {
     fap_bank *bank;
-    cage *cage;
+    cage_fine *face;
     float *motion; /* of the key at hand */
 } maker;
 
-static uint32_t place_vertex(const cage *c, const place *p, int right)
+static uint32_t sheet_vertex(uint32_t first, int columns, int row, int column)
 {
-    const int mirrored_tongue =
-        right && p->at == AT_TONGUE ? -2 : 0; /* left border to right border of a row */
-    const int column = CAGE_SIDE + (right ? -p->column : p->column);
+    return first + (uint32_t)(row * columns + columns / 2 + column);
+}
+
+/* A cage's vertex keeps its number in the face. */
+static uint32_t place_vertex(const cage_fine *f, const place *p, int right)
+{
+    const cage *c = &f->cage;
+    const int column = right ? -p->column : p->column;
 
     switch (p->at) {
-    case AT_UPPER: return c->upper[p->row][column];
-    case AT_LOWER: return c->lower[p->row][column];
-    case AT_EYE: return c->eye[right];
-    case AT_TEETH_UPPER: return c->teeth_upper + (uint32_t)p->column;
-    case AT_TEETH_LOWER: return c->teeth_lower + (uint32_t)p->column;
-    case AT_TONGUE: return c->tongue + (uint32_t)(p->column + mirrored_tongue);
+    case AT_UPPER: return c->upper[p->row][CAGE_SIDE + column];
+    case AT_LOWER: return c->lower[p->row][CAGE_SIDE + column];
+    case AT_LIP_UPPER: return c->lip_upper[MOUTH_CORNER + column];
+    case AT_LIP_LOWER: return c->lip_lower[MOUTH_CORNER + column];
+    case AT_EYE: return f->eye[right];
+    case AT_TEETH_UPPER: return sheet_vertex(f->teeth_upper, TEETH_COLUMNS, p->row, column);
+    case AT_TEETH_LOWER: return sheet_vertex(f->teeth_lower, TEETH_COLUMNS, p->row, column);
+    case AT_TONGUE: return sheet_vertex(f->tongue, TONGUE_COLUMNS, p->row, column);
     case AT_FIXED: break;
     }
     return 0;
@@ -114,8 +131,8 @@ static fap_err set_point(maker *m, const place *p, int point, int right)
     uint32_t *vertex = fap_bank_keep(m->bank, 1, sizeof *vertex);
     if (!vertex)
         return FAP_E_NOMEM;
-    *vertex = place_vertex(m->cage, p, right);
-    memcpy(out->position_mm, m->cage->position[*vertex], sizeof out->position_mm);
+    *vertex = place_vertex(m->face, p, right);
+    memcpy(out->position_mm, m->face->position[*vertex], sizeof out->position_mm);
     out->vertex = vertex;
     out->vertex_count = 1;
     return FAP_OK;
@@ -145,7 +162,7 @@ static fap_err measure(maker *m)
 
 static fap_err set_mesh(maker *m)
 {
-    const cage *c = m->cage;
+    const cage_fine *c = m->face;
     const uint32_t n = c->vertex_count, stride = (n + FAP_BLOCK - 1) / FAP_BLOCK * FAP_BLOCK;
     float *position = fap_bank_keep(m->bank, 3 * stride, sizeof *position);
     uint8_t *bytes = fap_bank_keep(m->bank, 6 * stride, 1);
@@ -205,7 +222,7 @@ static fap_err add_models(maker *m)
     fap_err err = FAP_OK;
 
     for (int i = 0; !err && fap_recipe_get(i, &r); i++) {
-        cage_unit_add(m->cage, cage_unit_find(r.unit), r.weight, m->motion, m->bank->mesh.stride);
+        cage_unit_add(m->face, cage_unit_find(r.unit), r.weight, m->motion, m->bank->mesh.stride);
         if (r.last)
             err = add_key(m, r.name, r.kind, r.number);
     }
@@ -217,7 +234,7 @@ static fap_err add_units(maker *m)
     fap_err err = FAP_OK;
 
     for (int u = 0; !err && u < cage_unit_count(); u++) {
-        cage_unit_add(m->cage, u, 1, m->motion, m->bank->mesh.stride);
+        cage_unit_add(m->face, u, 1, m->motion, m->bank->mesh.stride);
         err = add_key(m, cage_unit_name(u), FAP_KEY_UNIT, 0);
     }
     return err;
@@ -239,7 +256,7 @@ static fap_err make(maker *m)
     if (!m->bank->key)
         return FAP_E_NOMEM;
     strcpy(m->bank->name, "built-in");
-    cage_build(m->cage);
+    cage_build(m->face);
     set_eyes(m->bank);
     fap_err err = set_mesh(m);
     if (!err)
@@ -260,11 +277,11 @@ fap_err fap_bank_builtin(fap_bank **out, const fap_allocator *alloc)
     if (!m.bank)
         return FAP_E_NOMEM;
     const fap_allocator a = m.bank->alloc;
-    m.cage = fap_mem_calloc(&a, 1, sizeof *m.cage);
-    m.motion = fap_mem_calloc(&a, 3 * CAGE_MAX_VERTICES, sizeof *m.motion);
+    m.face = fap_mem_calloc(&a, 1, sizeof *m.face);
+    m.motion = fap_mem_calloc(&a, 3 * FINE_MAX_VERTICES, sizeof *m.motion);
 
-    const fap_err err = m.cage && m.motion ? make(&m) : FAP_E_NOMEM;
-    fap_mem_free(&a, m.cage);
+    const fap_err err = m.face && m.motion ? make(&m) : FAP_E_NOMEM;
+    fap_mem_free(&a, m.face);
     fap_mem_free(&a, m.motion);
     if (err)
         fap_bank_close(&m.bank);

@@ -2,9 +2,10 @@
 /*
  * The neutral built-in face: a revolved cage (one width and depth a row) onto which a nose, lips, sockets,
  * chin and ears are pressed as smooth fields; eyes and mouth are slits in the grid whose edges are pulled
- * apart and lined. Lengths follow the usual proportions of an adult head; the origin is the top of the spine.
+ * apart and lined. What is drawn is that cage after a step of smoothing. Lengths follow the usual proportions of an adult head; the origin is the top of the spine.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "bank/builtin.h"
@@ -22,7 +23,7 @@ enum { AXIS_Z = 35 }; /* the skull's own vertical axis stands this far before th
 static const struct row {
     int16_t y, width, front, back;
 } rows[CAGE_ROWS] = {
-    { 130, 48, 60, 56 },  { 100, 68, 82, 80 }, { 74, 74, 91, 87 },  { 55, 75, 93, 88 },  { 45, 74, 92, 88 },
+    { 131, 56, 66, 62 },  { 100, 71, 84, 82 }, { 74, 74, 91, 87 },  { 55, 75, 93, 88 },  { 45, 74, 92, 88 },
     { 39, 73, 89, 88 },   { 31, 72, 87, 87 },  { 22, 72, 87, 86 },  { 12, 71, 88, 84 },  { 0, 70, 89, 80 },
     { -9, 68, 90, 76 },   { -18, 66, 90, 72 }, { -28, 64, 91, 68 }, { -37, 61, 90, 65 }, { -46, 58, 89, 62 },
     { -57, 53, 87, 58 },  { -69, 46, 88, 56 }, { -81, 38, 82, 55 }, { -88, 46, 50, 55 }, { -106, 50, 34, 56 },
@@ -75,30 +76,48 @@ static void press_nose(vec *p, int row, int side)
         p->y -= side == 2 ? -2 : 1;
 }
 
-/* The outer lip contours run together at the corners; lips and philtrum stand out. */
-static void press_lips(vec *p, int row, int side)
+/* How far the lips are parted sideways: 1 in the middle, 0 at the corner. */
+static float lip_taper(int side)
 {
-    static const float closing[10] = { 0.1f, 0, 0.06f, 0.2f, 0.42f, 0.75f, 0.7f, 0.4f, 0.15f, 0 };
+    const float t = (float)side / MOUTH_CORNER;
+    return side < MOUTH_CORNER ? 1 - t * t : 0;
+}
+
+/* How far a lip's ridge stands before the line where lips meet. */
+static float lip_ridge(int side, int lower)
+{
+    return lip_taper(side) * (lower ? 2 : 2.5f);
+}
+
+/*
+ * The outer lip contours run together at the corners; lips and philtrum stand out. The edges of the slit are
+ * the ridges of the lips, the line where they meet lies behind them.
+ */
+static void press_lips(vec *p, int row, int side, int lower)
+{
+    static const float closing[10] = { 0.06f, 0, 0.06f, 0.2f, 0.45f, 0.75f, 0.65f, 0.4f, 0.15f, 0 };
 
     if ((row == ROW_MOUTH - 1 || row == ROW_MOUTH + 1) && side < 10)
         p->y += closing[side] * (rows[ROW_MOUTH].y - p->y);
     if (row == ROW_MOUTH && side == MOUTH_CORNER + 1)
-        p->x -= 3.5f;
+        p->x -= 2;
     p->z += 5 * bump(p->x, p->y, 0, -37, 22, 12);
-    if (row == ROW_MOUTH && side < MOUTH_CORNER)
-        p->z += 1.5f;
+    if (row != ROW_MOUTH)
+        return;
+    p->y += lip_taper(side) * (lower ? -3.6f : 3);
+    p->z += lip_ridge(side, lower);
 }
 
-static void press_face(vec *p, int row, int side)
+static void press_face(vec *p, int row, int side, int lower)
 {
     press_nose(p, row, side);
-    press_lips(p, row, side);
     p->z += 4 * bump(p->x, p->y, 44, 2, 16, 14);   /* cheek bone */
     p->z -= 4 * bump(p->x, p->y, 45, -32, 14, 16); /* hollow of the cheek */
     p->z -= 6 * bump(p->x, p->y, 26, 31, 16, 11);  /* socket */
     p->z += 3 * bump(p->x, p->y, 30, 47, 22, 6);   /* ridge of the brow */
     p->z += 5 * bump(p->x, p->y, 0, -71, 16, 9);   /* chin boss */
     p->z -= 4 * bump(p->x, p->y, 0, -56, 18, 5);   /* fold under the lip */
+    press_lips(p, row, side, lower);
 }
 
 /* The ear is the ridge of the column beside it. */
@@ -131,7 +150,7 @@ static void press_lids(vec *p, int row, int side, int lower)
         return;
     if (row == ROW_EYE)
         *p = i == 0 || i == 4 ? (vec){ x[i], top[i], i ? 99 : 103 }
-                              : on_eye(x[i], lower ? bottom[i] : top[i], 1.4f);
+                              : on_eye(x[i], lower ? bottom[i] : top[i], 2);
     else if (row == ROW_CREASE && i > 0 && i < 4)
         *p = on_eye(x[i], crease[i], 3);
     else if (row == ROW_EYE + 1 && i > 0 && i < 4)
@@ -143,7 +162,7 @@ static vec skin_place(int row, int column, int lower)
     const int side = column < 0 ? -column : column;
     vec p = revolve(row, side);
 
-    press_face(&p, row, side);
+    press_face(&p, row, side, lower);
     press_ear(&p, row, side);
     press_lids(&p, row, side, lower);
     if (column < 0)
@@ -151,34 +170,37 @@ static vec skin_place(int row, int column, int lower)
     return p;
 }
 
-static uint16_t add_vertex(cage *c, vec p, fap_part part, uint32_t rgb, int gloss, int in)
+static uint16_t add_vertex(cage *c, vec p, uint32_t rgb, int gloss, int in)
 {
     const uint32_t v = c->vertex_count++;
 
     c->position[v][0] = p.x, c->position[v][1] = p.y, c->position[v][2] = p.z;
-    c->part[v] = (uint8_t)part;
-    c->weight[v] = 255;
-    c->colour[v][0] = (uint8_t)(rgb >> 16), c->colour[v][1] = (uint8_t)(rgb >> 8),
-    c->colour[v][2] = (uint8_t)rgb;
-    c->colour[v][3] = (uint8_t)gloss;
+    for (int i = 0; i < 3; i++)
+        c->colour[v][i] = (float)(rgb >> (16 - 8 * i) & 255);
+    c->finish[v][0] = (float)gloss;
+    c->finish[v][1] = 255;
     c->in[v] = (uint8_t)in;
     return (uint16_t)v;
 }
 
-/* At the corners of an opening a quad shrinks to a triangle; what is left of the other half is dropped. */
-static void add_triangle(cage *c, uint32_t a, uint32_t b, uint32_t d)
+static void add_face(cage *c, uint16_t a, uint16_t b, uint16_t d, uint16_t e)
 {
-    if (a == b || b == d || d == a)
-        return;
-    uint32_t *t = c->triangle[c->triangle_count++];
-    t[0] = a, t[1] = b, t[2] = d;
+    uint16_t *f = c->face[c->face_count++];
+    f[0] = a, f[1] = b, f[2] = d, f[3] = e;
 }
 
-/* Counter-clockwise from the upper left corner, as seen from outside. */
-static void add_quad(cage *c, uint32_t a, uint32_t b, uint32_t d, uint32_t e)
+/*
+ * Counter-clockwise from the upper left corner, as seen from outside. At the corners of an opening a quad
+ * shrinks to a triangle.
+ */
+static void add_quad(cage *c, uint16_t a, uint16_t b, uint16_t d, uint16_t e)
 {
-    add_triangle(c, a, b, d);
-    add_triangle(c, a, d, e);
+    if (a == b)
+        add_face(c, b, d, e, e);
+    else if (d == e)
+        add_face(c, a, b, d, d);
+    else
+        add_face(c, a, b, d, e);
 }
 
 enum {
@@ -186,10 +208,13 @@ enum {
     WARM = 0xcf9178,
     LIP = 0xb0605a,
     LIP_EDGE = 0xbd7d6b,
-    BROW = 0x5c4432,
-    MOUTH = 0x5a2222,
+    BROW = 0x3a281c,
+    LIP_LINE = 0x8a4440,
+    MOUTH_RIM = 0x7a3836,
+    MOUTH = 0x4a1a1c,
+    MOUTH_BACK = 0x260c0e,
     LID = 0xbb8a72,
-    WET = 200
+    LASHES = 0x7a5546
 };
 
 static uint32_t skin_colour(int row, int side)
@@ -198,10 +223,8 @@ static uint32_t skin_colour(int row, int side)
         return LIP;
     if ((row == ROW_MOUTH - 1 || row == ROW_MOUTH + 1) && side < MOUTH_CORNER)
         return LIP_EDGE;
-    if (row == ROW_BROW && side >= 2 && side <= EYE_OUTER)
-        return BROW;
     if (row == ROW_EYE && side >= EYE_INNER && side <= EYE_OUTER)
-        return LID;
+        return LASHES;
     return (row == 9 || row == 10) && (side < 2 || side > 4) && side < 8 ? WARM : SKIN;
 }
 
@@ -233,10 +256,11 @@ static uint16_t add_skin(cage *c, int row, int column, int lower)
     const int side = column < 0 ? -column : column;
     const uint32_t rgb = skin_colour(row, side);
 
-    const uint16_t v = add_vertex(c, skin_place(row, column, lower), FAP_PART_SKIN, rgb, rgb == LIP ? 90 : 30,
-                                  skin_in(row, side, lower));
+    const uint16_t v =
+        add_vertex(c, skin_place(row, column, lower), rgb, rgb == LIP ? 90 : 30, skin_in(row, side, lower));
+    c->sharp[v] = row == ROW_EYE && side >= EYE_INNER && side <= EYE_OUTER;
     if (row >= CAGE_ROWS - 3)
-        c->weight[v] = (uint8_t)(row == CAGE_ROWS - 1 ? 0 : row == CAGE_ROWS - 2 ? 110 : 230);
+        c->finish[v][1] = row == CAGE_ROWS - 1 ? 0 : row == CAGE_ROWS - 2 ? 110 : 230;
     return v;
 }
 
@@ -258,137 +282,166 @@ static void build_skin(cage *c)
 {
     for (int row = 0; row < CAGE_ROWS; row++)
         add_skin_row(c, row);
-    const uint32_t crown = add_vertex(c, (vec){ 0, 143, AXIS_Z - 4 }, FAP_PART_SKIN, SKIN, 30, IN_UPPER);
+    const uint16_t crown = add_vertex(c, (vec){ 0, 149, AXIS_Z - 4 }, SKIN, 30, IN_UPPER);
     for (int i = 0; i < 2 * CAGE_SIDE; i++) {
-        add_triangle(c, crown, c->upper[0][i], c->upper[0][i + 1]);
+        add_face(c, crown, c->upper[0][i], c->upper[0][i + 1], c->upper[0][i + 1]);
         for (int row = 0; row + 1 < CAGE_ROWS; row++)
             add_quad(c, c->lower[row][i], c->upper[row + 1][i], c->upper[row + 1][i + 1],
                      c->lower[row][i + 1]);
     }
 }
 
-/* An opening is lined by a strip from its edge to a copy of it set back; @p move says where to. */
-typedef vec (*lining)(vec p, int lower);
+/* --- linings: strips from the edge of an opening inwards --- */
 
-static uint16_t line_vertex(cage *c, uint16_t edge, int lower, lining move, uint32_t rgb, int gloss)
+/* One ring of a lining, both edges from the right corner to the left one, corners shared. */
+typedef struct ring {
+    int count;
+    uint16_t up[LIP_COLUMNS], low[LIP_COLUMNS];
+} ring;
+
+typedef struct finish {
+    uint32_t rgb;
+    int gloss, sharp;
+} finish;
+
+/* @p move says where a vertex of the ring @p depth steps inwards comes from its edge's. */
+typedef vec (*lining)(vec edge, int lower, int side, int depth);
+
+static uint16_t line_vertex(cage *c, uint16_t edge, vec at, const finish *f)
 {
-    const float *p = c->position[edge];
-    return add_vertex(c, move((vec){ p[0], p[1], p[2] }, lower), FAP_PART_SKIN, rgb, gloss, c->in[edge]);
+    const uint16_t v = add_vertex(c, at, f->rgb, f->gloss, c->in[edge]);
+    c->sharp[v] = (uint8_t)f->sharp;
+    return v;
 }
 
-/* Edges run from the right corner to the left one, both included; closed at the back when @p wall. */
-static void line_opening(cage *c, const uint16_t *up, const uint16_t *low, int count, lining move,
-                         uint32_t rgb, int gloss, int wall)
+static void line_ring(cage *c, const ring *edge, lining move, int depth, const finish *f, ring *out)
 {
-    uint16_t back_up[2 * MOUTH_CORNER + 1], back_low[2 * MOUTH_CORNER + 1];
-
-    for (int i = 0; i < count; i++) {
-        back_up[i] = back_low[i] = line_vertex(c, up[i], 0, move, rgb, gloss);
-        if (up[i] != low[i])
-            back_low[i] = line_vertex(c, low[i], 1, move, rgb, gloss);
-    }
-    for (int i = 0; i + 1 < count; i++) {
-        add_quad(c, up[i], back_up[i], back_up[i + 1], up[i + 1]);
-        add_quad(c, back_low[i], low[i], low[i + 1], back_low[i + 1]);
-        if (wall)
-            add_quad(c, back_up[i], back_low[i], back_low[i + 1], back_up[i + 1]);
-    }
-}
-
-static vec into_mouth(vec p, int lower)
-{
-    return (vec){ p.x * 1.05f, p.y + (lower ? -20.0f : 20.0f), p.z - 36 };
-}
-
-static vec into_socket(vec p, int lower)
-{
-    return (vec){ p.x, p.y + (lower ? -1.0f : 1.0f), p.z - 7 };
-}
-
-static void build_linings(cage *c)
-{
-    const int m = CAGE_SIDE - MOUTH_CORNER, right = CAGE_SIDE - EYE_OUTER, left = CAGE_SIDE + EYE_INNER;
-    const int lids = EYE_OUTER - EYE_INNER + 1;
-
-    line_opening(c, &c->upper[ROW_MOUTH][m], &c->lower[ROW_MOUTH][m], 2 * MOUTH_CORNER + 1, into_mouth, MOUTH,
-                 120, 1);
-    line_opening(c, &c->upper[ROW_EYE][right], &c->lower[ROW_EYE][right], lids, into_socket, LID, 60, 0);
-    line_opening(c, &c->upper[ROW_EYE][left], &c->lower[ROW_EYE][left], lids, into_socket, LID, 60, 0);
-}
-
-/* Rings about the eye's axis: pupil, rim of the iris twice (its colour ends sharply), the equator. */
-static void build_eye(cage *c, int right)
-{
-    static const float ring_sine[EYE_RINGS] = { 0.2f, 0.46f, 0.52f, 1 };
-    static const uint32_t rgb[EYE_RINGS] = { 0x101010, 0x4a7358, 0xe6e2de, 0xe6e2de };
-    const float cx = right ? -cage_eye_centre[0] : cage_eye_centre[0], r = cage_eye_radius;
-    const fap_part part = right ? FAP_PART_EYE_RIGHT : FAP_PART_EYE_LEFT;
-    const uint32_t pole =
-        add_vertex(c, (vec){ cx, cage_eye_centre[1], cage_eye_centre[2] + r }, part, 0x101010, 255, IN_STILL);
-
-    c->eye[right] = (uint16_t)pole;
-    for (int ring = 0; ring < EYE_RINGS; ring++)
-        for (int lane = 0; lane < EYE_LANES; lane++) {
-            const float s = ring_sine[ring], a = lane * 6.2831853f / EYE_LANES;
-            const vec p = { cx + r * s * cosf(a), cage_eye_centre[1] + r * s * sinf(a),
-                            cage_eye_centre[2] + r * sqrtf(1 - s * s) };
-            add_vertex(c, p, part, rgb[ring], 255, IN_STILL);
-        }
-    for (uint32_t lane = 0; lane < EYE_LANES; lane++) {
-        const uint32_t next = (lane + 1) % EYE_LANES;
-        add_triangle(c, pole, pole + 1 + lane, pole + 1 + next);
-        for (uint32_t ring = 0; ring + 1 < EYE_RINGS; ring++) {
-            const uint32_t a = pole + 1 + ring * EYE_LANES;
-            add_quad(c, a + lane, a + EYE_LANES + lane, a + EYE_LANES + next, a + next);
-        }
+    out->count = edge->count;
+    for (int i = 0; i < edge->count; i++) {
+        const float *p = c->position[edge->up[i]], *q = c->position[edge->low[i]];
+        const int side = abs(i - edge->count / 2);
+        out->up[i] = out->low[i] =
+            line_vertex(c, edge->up[i], move((vec){ p[0], p[1], p[2] }, 0, side, depth), f);
+        if (edge->up[i] != edge->low[i])
+            out->low[i] = line_vertex(c, edge->low[i], move((vec){ q[0], q[1], q[2] }, 1, side, depth), f);
     }
 }
 
-/* One curved band a jaw: upper edge, then lower edge, right to left. */
-static uint16_t build_teeth(cage *c, int lower)
+static void join_rings(cage *c, const ring *front, const ring *back)
 {
-    const uint16_t first = (uint16_t)c->vertex_count;
-    const float top = lower ? -39.5f : -30, height = 9;
-    const fap_part part = lower ? FAP_PART_TEETH_LOWER : FAP_PART_TEETH_UPPER;
-
-    for (int edge = 0; edge < 2; edge++)
-        for (int i = 0; i < TEETH_COLUMNS; i++) {
-            const float x = 11.0f * (i - TEETH_COLUMNS / 2);
-            add_vertex(c, (vec){ x, top - edge * height, (lower ? 114 : 117) - x * x * 0.045f }, part,
-                       0xe8e2d2, WET, lower ? IN_TEETH_LOWER : IN_STILL);
-        }
-    for (uint32_t i = first; i + 1 < (uint32_t)first + TEETH_COLUMNS; i++)
-        add_quad(c, i, i + TEETH_COLUMNS, i + TEETH_COLUMNS + 1, i + 1);
-    return first;
+    for (int i = 0; i + 1 < front->count; i++) {
+        add_quad(c, front->up[i], back->up[i], back->up[i + 1], front->up[i + 1]);
+        add_quad(c, back->low[i], front->low[i], front->low[i + 1], back->low[i + 1]);
+    }
 }
 
-/* Rows from the root to the tip; right border, ridge, left border. */
-static void build_tongue(cage *c)
+static void close_ring(cage *c, const ring *r)
 {
-    static const int16_t row_z[TONGUE_ROWS] = { 76, 90, 101, 109 },
-                         half_width[TONGUE_ROWS] = { 16, 16, 13, 5 };
-    static const int16_t row_y[TONGUE_ROWS] = { -38, -36, -38, -41 };
-
-    c->tongue = (uint16_t)c->vertex_count;
-    for (int row = 0; row < TONGUE_ROWS; row++)
-        for (int i = -1; i <= 1; i++)
-            add_vertex(c, (vec){ (float)(i * half_width[row]), row_y[row] - (i ? 4.0f : 0), row_z[row] },
-                       FAP_PART_TONGUE, 0xb5605c, WET, IN_TONGUE);
-    for (uint32_t row = 0; row + 1 < TONGUE_ROWS; row++)
-        for (uint32_t i = 0; i < 2; i++) {
-            const uint32_t a = c->tongue + row * 3 + i;
-            add_quad(c, a, a + 3, a + 4, a + 1);
-        }
+    for (int i = 0; i + 1 < r->count; i++)
+        add_quad(c, r->up[i], r->low[i], r->low[i + 1], r->up[i + 1]);
 }
 
-void cage_build(cage *c)
+/* Ridge of the lip, the line where lips meet, their inside, the bag, its back. */
+static vec into_mouth(vec p, int lower, int side, int depth)
 {
-    memset(c, 0, sizeof *c);
+    static const float away[5] = { 0, 0, 1.5f, 13, 16 }, back[5] = { 0, 0.3f, 6, 15, 46 },
+                       wide[5] = { 1, 1, 1, 1.06f, 0.9f };
+    const float t = lip_taper(side), up = lower ? -1 : 1;
+
+    return (vec){ p.x * wide[depth], rows[ROW_MOUTH].y + up * sqrtf(t) * away[depth],
+                  p.z - lip_ridge(side, lower) - back[depth] };
+}
+
+static vec into_socket(vec p, int lower, int side, int depth)
+{
+    (void)side;
+    return (vec){ p.x, p.y + (lower ? -1.0f : 1.0f), p.z - 7 * (float)depth };
+}
+
+static void line_mouth(cage *c)
+{
+    static const finish finishes[5] = {
+        { 0 }, { LIP_LINE, 60, 1 }, { MOUTH_RIM, 60, 0 }, { MOUTH, 60, 0 }, { MOUTH_BACK, 20, 0 }
+    };
+    const int m = CAGE_SIDE - MOUTH_CORNER;
+    ring edge = { LIP_COLUMNS, { 0 }, { 0 } }, front, back;
+
+    memcpy(edge.up, &c->upper[ROW_MOUTH][m], sizeof edge.up);
+    memcpy(edge.low, &c->lower[ROW_MOUTH][m], sizeof edge.low);
+    front = edge;
+    for (int depth = 1; depth < 5; depth++) {
+        line_ring(c, &edge, into_mouth, depth, &finishes[depth], &back);
+        join_rings(c, &front, &back);
+        if (depth == 1) {
+            memcpy(c->lip_upper, back.up, sizeof back.up);
+            memcpy(c->lip_lower, back.low, sizeof back.low);
+        }
+        front = back;
+    }
+    close_ring(c, &back);
+}
+
+static void line_eye(cage *c, int first)
+{
+    static const finish lid = { LID, 60, 0 };
+    const size_t size = sizeof(uint16_t) * (EYE_OUTER - EYE_INNER + 1);
+    ring edge = { EYE_OUTER - EYE_INNER + 1, { 0 }, { 0 } }, back;
+
+    memcpy(edge.up, &c->upper[ROW_EYE][first], size);
+    memcpy(edge.low, &c->lower[ROW_EYE][first], size);
+    line_ring(c, &edge, into_socket, 1, &lid, &back);
+    join_rings(c, &edge, &back);
+}
+
+/* --- from the cage to what is drawn --- */
+
+static uint8_t to_byte(float x)
+{
+    return (uint8_t)(x < 0 ? 0 : x > 255 ? 255 : x + 0.5f);
+}
+
+/* Brows are narrower than the cage is fine: their colour is laid on what is drawn. */
+static void paint_brow(const float p[3], float rgb[3])
+{
+    const float along = (fabsf(p[0]) - 29) / 20, above = p[1] - (45.5f + 2 * along - 3.5f * along * along);
+    const float hair = p[2] < 50 ? 0 : 1.2f * expf(-powf(along, 8) - above * above / 12);
+
+    for (int i = 0; i < 3; i++)
+        rgb[i] += fminf(hair, 0.9f) * ((float)(BROW >> (16 - 8 * i) & 255) - rgb[i]);
+}
+
+/* The skin is the smoothed cage; colours and weights go through the same sums. */
+static void draw_skin(cage_fine *f)
+{
+    const cage *c = &f->cage;
+
+    f->skin_count = f->vertex_count = cage_fine_count(c);
+    cage_smooth(c, c->position, f->position);
+    cage_smooth(c, c->colour, f->motion);
+    for (uint32_t v = 0; v < f->skin_count; v++) {
+        paint_brow(f->position[v], f->motion[v]);
+        for (int i = 0; i < 3; i++)
+            f->colour[v][i] = to_byte(f->motion[v][i]);
+    }
+    cage_smooth(c, c->finish, f->motion);
+    for (uint32_t v = 0; v < f->skin_count; v++) {
+        f->colour[v][3] = to_byte(f->motion[v][0]);
+        f->weight[v] = to_byte(f->motion[v][1]);
+        f->part[v] = FAP_PART_SKIN;
+    }
+    f->triangle_count = cage_fine_triangles(c, f->triangle);
+}
+
+void cage_build(cage_fine *f)
+{
+    cage *c = &f->cage;
+
+    memset(f, 0, sizeof *f);
     build_skin(c);
-    build_linings(c);
-    build_eye(c, 0);
-    build_eye(c, 1);
-    c->teeth_upper = build_teeth(c, 0);
-    c->teeth_lower = build_teeth(c, 1);
-    build_tongue(c);
+    line_mouth(c);
+    line_eye(c, CAGE_SIDE - EYE_OUTER);
+    line_eye(c, CAGE_SIDE + EYE_INNER);
+    cage_link(c);
+    draw_skin(f);
+    cage_add_inside(f);
 }

@@ -26,6 +26,7 @@ typedef struct field {
 } field;
 
 enum { FAR = 1000 };
+static const float tail = 0.012f; /* of a bell; cut off, it costs blocks that nobody sees move */
 #define LID  30.5f, 31, 12, FAR
 #define LIPS 0, -37
 
@@ -52,8 +53,6 @@ static const field fields[] = {
     { "jawForward", ON_JAW, 0, 0, 0, 0, 0, 0, 7, 0 },
     { "jawLeft", ON_JAW, 0, 0, 0, 0, 10, 0, 0, 0 },
     { "jawRight", ON_JAW, 0, 0, 0, 0, -10, 0, 0, 0 },
-    { "mouthClose", IN_LOWER, LIPS, 26, 12, 0, 31, 14, 0 },
-    { "mouthClose", IN_UPPER, LIPS, 24, 10, 0, -3, 0, 0 },
     { "mouthDimple", ON_SKIN, 26, -37, 12, 12, 5, 2, -3, 0 },
     { "mouthFrown", ON_SKIN, 25, -38, 12, 13, 1, -9, -2, 0 },
     { "mouthFunnel", ON_SKIN, LIPS, 26, 16, 0, 0, 6, -0.3f },
@@ -62,11 +61,11 @@ static const field fields[] = {
     { "mouthLeft", ON_SKIN, LIPS, 28, 18, 9, 0, 0, 0 },
     { "mouthRight", ON_SKIN, LIPS, 28, 18, -9, 0, 0, 0 },
     { "mouthLowerDown", IN_LOWER, 10, -41, 14, 13, 0, -8, -1, 0 },
-    { "mouthPress", IN_UPPER, 14, -37, 14, 8, 0, -1, -2, 0 },
-    { "mouthPress", IN_LOWER, 14, -37, 14, 8, 0, 1, -2, 0 },
+    { "mouthPress", IN_UPPER, 14, -31, 14, 7, 0, -1.4f, -2, 0 },
+    { "mouthPress", IN_LOWER, 14, -43, 14, 7, 0, 1.4f, -2, 0 },
     { "mouthPucker", ON_SKIN, LIPS, 28, 18, 0, 0, 9, -0.45f },
-    { "mouthRollLower", IN_LOWER, LIPS, 22, 7, 0, 2, -6, 0 },
-    { "mouthRollUpper", IN_UPPER, LIPS, 22, 7, 0, -2, -6, 0 },
+    { "mouthRollLower", IN_LOWER, 0, -42, 22, 7, 0, 2, -6, 0 },
+    { "mouthRollUpper", IN_UPPER, 0, -32, 22, 7, 0, -2, -6, 0 },
     { "mouthShrugLower", IN_LOWER, 0, -45, 24, 16, 0, 6, 2, 0 },
     { "mouthShrugLower", IN_UPPER, LIPS, 22, 9, 0, 4.6f, 2, 0 },
     { "mouthShrugUpper", IN_UPPER, 0, -35, 24, 12, 0, 4, 2, 0 },
@@ -128,18 +127,27 @@ static float clamp01(float x)
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
-/* How much a vertex follows the jaw: lower lip and chin fully, corners half, fading to the ears and down the
- * neck. */
+static float ramp(float x)
+{
+    const float t = clamp01(x);
+    return t * t * (3 - 2 * t);
+}
+
+/*
+ * How much the skin follows the jaw: lower lip and chin fully, the corners of the mouth half, cheeks less the
+ * higher they are; fading to the ears and down the neck.
+ */
 static float jaw_weight(const cage *c, uint32_t v)
 {
-    const float *p = c->position[v];
-
-    if (c->in[v] & (IN_TEETH_LOWER | IN_TONGUE))
-        return 1;
-    if (c->part[v] != FAP_PART_SKIN || c->in[v] & ~IN_LOWER)
-        return 0;
+    const float *p = c->position[v], corner = 0.45f, lip_y = -37;
     const float back = clamp01((p[2] - 30) / 45), neck = clamp01((p[1] + 118) / 30);
-    return (c->in[v] & IN_LOWER ? 1 : 0.45f) * back * neck;
+    const float x = fminf(1, fabsf(p[0]) / 25), middle = sqrtf(1 - x * x);
+
+    if (c->in[v] & (IN_LID_UPPER | IN_LID_LOWER | IN_CREASE))
+        return 0;
+    if (c->in[v] & IN_LOWER)
+        return (corner + (1 - corner) * fmaxf(middle, ramp((lip_y - p[1]) / 25))) * back * neck;
+    return corner * (1 - fmaxf(c->in[v] & IN_UPPER ? middle : 0, ramp((p[1] - lip_y) / 25))) * back;
 }
 
 /* The jaw turns about an axis through the ears; at full strength it opens the lips by about 4 cm. */
@@ -156,7 +164,7 @@ static void jaw_open(const float p[3], float motion[3])
 static void tongue_motion(const char *unit, float s, float motion[3])
 {
     if (!strcmp(unit, "tongueOut")) {
-        motion[1] = 2 * s;
+        motion[1] = 5 * s;
         motion[2] = 28 * s;
     } else if (!strcmp(unit, "_tongueUp")) {
         motion[1] = 10 * s * s * s * s;
@@ -167,11 +175,6 @@ static void tongue_motion(const char *unit, float s, float motion[3])
     }
 }
 
-static float tongue_along(const cage *c, uint32_t v)
-{
-    return (float)((v - c->tongue) / 3) / (TONGUE_ROWS - 1);
-}
-
 /* A unit of both sides is its left half and that half's mirror image; sideways units only move, they do not
  * mirror. */
 static void add_field(const field *f, const float p[3], int side, float motion[3])
@@ -179,48 +182,93 @@ static void add_field(const field *f, const float p[3], int side, float motion[3
     const int mirror = side == RIGHT || (side == BOTH && p[0] < 0);
     const int sideways = f->dx != 0 && side == BOTH && f->cx == 0;
     const float x = mirror ? -p[0] : p[0], u = (x - f->cx) / f->rx, v = (p[1] - f->cy) / f->ry;
-    const float bell = p[2] > 50 ? expf(-(u * u + v * v)) : 0;
+    const float bell = p[2] > 50 ? fmaxf(0, expf(-(u * u + v * v)) - tail) : 0;
 
     motion[0] += bell * (mirror && !sideways ? -f->dx : f->dx) + bell * f->stretch * p[0];
     motion[1] += bell * f->dy;
     motion[2] += bell * f->dz;
 }
 
-static int field_sees(const field *f, const cage *c, uint32_t v)
+/* With the jaw open, lips meet again a little below where they did: undone is what the jaw did to each. */
+static void close_mouth(const cage *c, uint32_t v, float motion[3])
 {
-    return c->part[v] == FAP_PART_SKIN && (f->in == ON_SKIN || c->in[v] & f->in);
+    const float *p = c->position[v], meet = 0.1f, up = (p[1] + 37) / 13, bell = expf(-up * up);
+    float jaw[3] = { 0 };
+
+    jaw_open(p, jaw);
+    for (int axis = 0; axis < 3 && fabsf(p[0]) < 60; axis++)
+        motion[axis] += bell * (meet - jaw_weight(c, v)) * jaw[axis] * ramp((60 - fabsf(p[0])) / 30);
 }
 
-static void unit_motion(const cage *c, const struct unit *u, uint32_t v, float motion[3])
+static void hinge(const cage *c, uint32_t v, float motion[3])
 {
-    const float *p = c->position[v], jaw = jaw_weight(c, v);
+    const float jaw = jaw_weight(c, v);
 
-    if (!strcmp(u->name, "jawOpen")) {
-        jaw_open(p, motion);
-        motion[1] *= jaw;
-        motion[2] *= jaw;
-    }
-    if (c->in[v] & IN_TONGUE)
-        tongue_motion(u->name, tongue_along(c, v), motion);
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        const field *f = &fields[i];
-        if (strcmp(f->unit, u->field))
-            continue;
-        if (f->in == ON_JAW) {
-            motion[0] += jaw * f->dx;
-            motion[2] += jaw * f->dz;
-        } else if (field_sees(f, c, v)) {
-            add_field(f, p, u->side, motion);
-        }
-    }
+    jaw_open(c->position[v], motion);
+    motion[1] *= jaw;
+    motion[2] *= jaw;
 }
 
-void cage_unit_add(const cage *c, int unit, float weight, float *motion, uint32_t stride)
+static void slide_jaw(const cage *c, const field *f, uint32_t v, float motion[3])
+{
+    const float jaw = jaw_weight(c, v);
+
+    motion[0] += jaw * f->dx;
+    motion[2] += jaw * f->dz;
+}
+
+static void skin_field(const cage *c, const field *f, int side, float (*motion)[3])
 {
     for (uint32_t v = 0; v < c->vertex_count; v++) {
-        float d[3] = { 0 };
-        unit_motion(c, &units[unit], v, d);
-        for (int axis = 0; axis < 3; axis++)
-            motion[axis * stride + v] += weight * d[axis];
+        if (f->in == ON_JAW)
+            slide_jaw(c, f, v, motion[v]);
+        else if (f->in == ON_SKIN || c->in[v] & f->in)
+            add_field(f, c->position[v], side, motion[v]);
     }
+}
+
+static void skin_motion(const cage *c, const struct unit *u, float (*motion)[3])
+{
+    const int opens = !strcmp(u->name, "jawOpen"), closes = !strcmp(u->name, "mouthClose");
+
+    for (uint32_t v = 0; (opens || closes) && v < c->vertex_count; v++) {
+        if (opens)
+            hinge(c, v, motion[v]);
+        else
+            close_mouth(c, v, motion[v]);
+    }
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        if (!strcmp(fields[i].unit, u->field))
+            skin_field(c, &fields[i], u->side, motion);
+}
+
+/* Lower teeth and tongue are the jaw's; the tongue moves by itself as well. */
+static void inside_motion(const cage_fine *f, const struct unit *u, uint32_t v, float motion[3])
+{
+    if (f->part[v] != FAP_PART_TEETH_LOWER && f->part[v] != FAP_PART_TONGUE)
+        return;
+    if (!strcmp(u->name, "jawOpen"))
+        jaw_open(f->position[v], motion);
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        if (fields[i].in == ON_JAW && !strcmp(fields[i].unit, u->field)) {
+            motion[0] += fields[i].dx;
+            motion[2] += fields[i].dz;
+        }
+    if (f->part[v] == FAP_PART_TONGUE)
+        tongue_motion(u->name, cage_tongue_along(f, v), motion);
+}
+
+void cage_unit_add(cage_fine *f, int unit, float weight, float *motion, uint32_t stride)
+{
+    const cage *c = &f->cage;
+
+    memset(f->cage_motion, 0, sizeof f->cage_motion);
+    skin_motion(c, &units[unit], f->cage_motion);
+    memset(f->motion, 0, sizeof f->motion);
+    cage_smooth(c, (const float(*)[3])f->cage_motion, f->motion);
+    for (uint32_t v = f->skin_count; v < f->vertex_count; v++)
+        inside_motion(f, &units[unit], v, f->motion[v]);
+    for (uint32_t v = 0; v < f->vertex_count; v++)
+        for (int axis = 0; axis < 3; axis++)
+            motion[axis * stride + v] += weight * f->motion[v][axis];
 }

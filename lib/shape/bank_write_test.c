@@ -182,13 +182,13 @@ static const struct damage {
     const char *tag;
     uint32_t offset, value;
 } damages[] = {
-    { "TRIS", 0, 613 },         { "TRIS", 8, 0xffffffff },  { "HEAD", 0, 0 },
+    { "TRIS", 0, 100000 },      { "TRIS", 8, 0xffffffff },  { "HEAD", 0, 0 },
     { "HEAD", 0, 0x7fffffff },  { "HEAD", 4, 0x7fffffff },  { "HEAD", 8, 5000 },
     { "HEAD", 8, 84 },          { "HEAD", 12, 0xffffffff }, { "HEAD", 16, 0xffffffff },
     { "HEAD", 20, 83 },         { "VPOS", 4, 0x7fc00000 },  { "VPOS", 4, 0x7f800000 },
     { "VPRT", 0, 0x07070707 },  { "FAPU", 8, 0 },           { "FAPU", 8, 0x7fc00000 },
     { "EYES", 12, 0xbf800000 }, { "PNTS", 0, 2 },           { "PNTS", 16, 0xfffffff0 },
-    { "PNTS", 20, 0xfffffff0 }, { "PVTX", 0, 612 + 8 },     { "KEYS", 0, 0 },
+    { "PNTS", 20, 0xfffffff0 }, { "PVTX", 0, 100000 },      { "KEYS", 0, 0 },
     { "KEYS", 32, 9 },          { "KEYS", 32, 0 },          { "KEYS", 36, 0xfffffff0 },
     { "KEYS", 40, 0 },          { "KEYS", 40, 0x7fc00000 }, { "KEYS", 44, 0xfffffff0 },
     { "KBLK", 0, 0xffffffff },  { "KPNT", 0, 0x7fc00000 },
