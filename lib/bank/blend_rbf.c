@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * No example faces at all: what the feature points do is spread over the skin by Hardy's multiquadrics, each
+ * No example faces, lids aside: what the feature points do is spread over the skin by Hardy's multiquadrics, each
  * axis with the points that are commanded along it and with anchors where the face never moves. Visemes and
  * expressions are still key models; the field bends what they show. Source: Zhu 2006 section 4.3, eq. 4.1 to
  * 4.4, used for motion instead of shape; Lin et al. 2001 section 5.2.
@@ -9,9 +9,11 @@
 #include <string.h>
 
 #include "bank/face.h"
+#include "bank/face_graph.h"
 #include "bank/gauss.h"
 #include "base/mem.h"
 
+enum { SPACE = 5 }; /* x, y, z, which side of the mouth, which side of an eye */
 enum { ANCHORS = 24, CENTRES_MAX = FAP_POINT_COUNT + ANCHORS };
 static const double least_pivot = 1e-3; /* below it two centres are one */
 static const float farthest_mm = 200;   /* targets that contradict each other do not fling the skin further */
@@ -19,8 +21,9 @@ static const float farthest_mm = 200;   /* targets that contradict each other do
 typedef struct state {
     int count, point_count; /* centres: feature points first, then anchors */
     int point[FAP_POINT_COUNT];
-    float centre[CENTRES_MAX][3], stiffness[CENTRES_MAX];
+    float centre[CENTRES_MAX][SPACE], stiffness[CENTRES_MAX];
     uint32_t anchor[ANCHORS];
+    float (*side)[SPACE - 3];                 /* [vertex_count] */
     float *kernel;                            /* [count][stride]: eq. 4.2 at every vertex */
     float pull[FAP_POINT_COUNT][CENTRES_MAX]; /* the same at the feature points */
     float anchor_pull[ANCHORS][CENTRES_MAX];
@@ -31,16 +34,87 @@ typedef struct state {
 
 /* --- made at open --- */
 
-static void place(const fap_face *face, uint32_t v, float out[3])
+/*
+ * Straight lines alone glue lips and lids together: an upper lip is nearer to the lower one than to its own corners. So
+ * each vertex also has a height above the slit in a dimension of its own, from how far it is along the surface
+ * to either edge: the furthest at the edges, nought at the corners, fading with distance. The kernel stays Hardy's and the
+ * equations stay solvable.
+ */
+static const struct slit {
+    float apart_mm;
+    const char *upper[3], *lower[3];
+} slits[SPACE - 3] = {
+    { 40, { "2.2", "2.6", "2.7" }, { "2.3", "2.8", "2.9" } },
+    { 20, { "3.1", "3.2" }, { "3.3", "3.4" } },
+};
+static const float slit_reach_mm = 120;
+
+/* Distances along the surface from the points named; @p out has one a vertex. */
+static int flood(fap_graph *graph, const fap_face *face, const char *const names[3], float *out)
+{
+    uint32_t source[3], count = 0;
+
+    for (int i = 0; i < 3 && names[i]; i++) {
+        const int p = fap_point_by_name(names[i]);
+        if (face->solvable[p])
+            source[count++] = fap_bank_point_get(face->bank, p)->vertex[0];
+    }
+    fap_graph_flood(graph, source, count, slit_reach_mm);
+    for (uint32_t v = 0; v < face->mesh->vertex_count; v++)
+        out[v] = fminf(slit_reach_mm, graph->distance[graph->weld[v]]);
+    return count > 0;
+}
+
+static void take_sides(state *s, fap_graph *graph, const fap_face *face, float *up, float *low)
+{
+    for (int i = 0; i < SPACE - 3; i++) {
+        if (!flood(graph, face, slits[i].upper, up) || !flood(graph, face, slits[i].lower, low))
+            continue;
+        for (uint32_t v = 0; v < face->mesh->vertex_count; v++)
+            s->side[v][i] = slits[i].apart_mm / 2 * (low[v] - up[v]) / (low[v] + up[v] + 0.01f);
+    }
+}
+
+static int find_sides(state *s, const fap_face *face)
+{
+    const uint32_t n = face->mesh->vertex_count;
+    float *up = fap_mem_calloc(&face->alloc, n, sizeof *up),
+          *low = fap_mem_calloc(&face->alloc, n, sizeof *low);
+    fap_graph graph;
+
+    s->side = fap_mem_calloc(&face->alloc, n, sizeof *s->side);
+    const int failed = fap_graph_open(&graph, face->bank, &face->alloc) || !up || !low || !s->side;
+    if (!failed)
+        take_sides(s, &graph, face, up, low);
+    fap_graph_close(&graph, &face->alloc);
+    fap_mem_free(&face->alloc, up);
+    fap_mem_free(&face->alloc, low);
+    return failed;
+}
+
+static void place(const state *s, const fap_face *face, uint32_t v, float out[SPACE])
 {
     for (size_t axis = 0; axis < 3; axis++)
         out[axis] = face->mesh->position[axis * face->mesh->stride + v];
+    memcpy(out + 3, s->side[v], sizeof s->side[v]);
 }
 
-static float distance(const float a[3], const float b[3])
+static void place_point(const state *s, const fap_face *face, int p, float out[SPACE])
 {
-    const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return sqrtf(x * x + y * y + z * z);
+    const fap_bank_point *b = fap_bank_point_get(face->bank, p);
+
+    memcpy(out, face->neutral[p], sizeof face->neutral[p]);
+    for (int i = 0; i < SPACE - 3; i++)
+        out[3 + i] = b->vertex_count ? s->side[b->vertex[0]][i] : 0;
+}
+
+static float distance(const float a[SPACE], const float b[SPACE])
+{
+    float square = 0;
+
+    for (int i = 0; i < SPACE; i++)
+        square += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrtf(square);
 }
 
 static int on_skin(const fap_face *face, int p)
@@ -53,7 +127,7 @@ static void list_centres(state *s, const fap_face *face)
 {
     for (int p = 0; p < FAP_POINT_COUNT; p++)
         if (on_skin(face, p)) {
-            memcpy(s->centre[s->count], face->neutral[p], sizeof s->centre[0]);
+            place_point(s, face, p, s->centre[s->count]);
             s->point[s->count++] = p;
         }
     s->point_count = s->count;
@@ -72,7 +146,7 @@ static void mark_moving(const fap_face *face, uint8_t *moving)
 static void add_anchors(state *s, const fap_face *face, const uint8_t *moving, float *nearest)
 {
     const fap_mesh *mesh = face->mesh;
-    float at[3];
+    float at[SPACE];
 
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         nearest[v] = INFINITY;
@@ -80,7 +154,7 @@ static void add_anchors(state *s, const fap_face *face, const uint8_t *moving, f
         uint32_t best = 0;
         found = 0;
         for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-            place(face, v, at);
+            place(s, face, v, at);
             for (int i = c ? c : 0; i < s->count; i++)
                 nearest[v] = fminf(nearest[v], distance(at, s->centre[i]));
             if (moving[v] || mesh->part[v] != FAP_PART_SKIN || nearest[v] < 1 || isinf(nearest[v]))
@@ -90,7 +164,7 @@ static void add_anchors(state *s, const fap_face *face, const uint8_t *moving, f
         }
         if (found) {
             s->anchor[s->count - s->point_count] = best;
-            place(face, best, s->centre[s->count++]);
+            place(s, face, best, s->centre[s->count++]);
         }
     }
 }
@@ -123,7 +197,7 @@ static void find_stiffness(state *s)
 }
 
 /* Eq. 4.2 */
-static float hardy(const state *s, int c, const float at[3])
+static float hardy(const state *s, int c, const float at[SPACE])
 {
     const float d = distance(at, s->centre[c]);
     return sqrtf(d * d + s->stiffness[c] * s->stiffness[c]);
@@ -132,13 +206,13 @@ static float hardy(const state *s, int c, const float at[3])
 /* Lower teeth and tongue go where the chin goes; eyes and upper teeth stay. */
 static float kernel_at(const state *s, const fap_face *face, int c, uint32_t v)
 {
-    float at[3];
+    float at[SPACE];
 
     switch (face->mesh->part[v]) {
     case FAP_PART_TEETH_LOWER:
-    case FAP_PART_TONGUE: return hardy(s, c, face->neutral[face->chin_row / 3]);
+    case FAP_PART_TONGUE: place_point(s, face, face->chin_row / 3, at); return hardy(s, c, at);
     case FAP_PART_SKIN:
-    case FAP_PART_LASHES: place(face, face->follows[v], at); return hardy(s, c, at);
+    case FAP_PART_LASHES: place(s, face, face->follows[v], at); return hardy(s, c, at);
     default: return 0;
     }
 }
@@ -163,6 +237,8 @@ static int open_rbf(void *user, const fap_face *face)
     state *s = user;
     const uint32_t stride = face->mesh->stride;
 
+    if (find_sides(s, face))
+        return 1;
     list_centres(s, face);
     if (find_anchors(s, face))
         return 1;
@@ -182,6 +258,7 @@ static void close_rbf(void *user, const fap_face *face)
 {
     state *s = user;
 
+    fap_mem_free(&face->alloc, s->side);
     fap_mem_free(&face->alloc, s->kernel);
     fap_mem_free(&face->alloc, s->block);
 }
@@ -228,6 +305,20 @@ static int set_equations(state *s, const fap_face *face, int axis, int *list)
     return n;
 }
 
+/*
+ * One point in the middle cannot say how the edge of a lid runs: spread by the kernel it made a tent with the eye in
+ * sight on both sides. A lid that closes is the bank's blink as far as that goes; the field does the rest.
+ */
+static void lower_lids(fap_face *face)
+{
+    for (int right = 0; right < 2; right++) {
+        const int key = face->known.blink[right], p = face->slit[FAP_LIP_SLITS + right][0];
+        const float full = key >= 0 ? face->key[key]->point_mm[p][1] : 0;
+        if (face->wanted[p][1] && full < 0)
+            face->weight[key] = fminf(1.1f, fmaxf(0, fap_blend_row_target(face, 3 * p + 1) / full));
+    }
+}
+
 static void solve_rbf(void *user, fap_face *face)
 {
     state *s = user;
@@ -236,6 +327,7 @@ static void solve_rbf(void *user, fap_face *face)
 
     for (int i = 0; i < face->base_count; i++)
         face->weight[face->base_key[i]] = face->base_weight[i];
+    lower_lids(face);
     memset(s->strength, 0, sizeof s->strength);
     for (int axis = 0; axis < 3; axis++) {
         const int n = set_equations(s, face, axis, list);

@@ -11,6 +11,7 @@
 #include "base/mem.h"
 
 static const float most_of_a_key = 2;    /* the thesis sets no bound; absurd targets need one */
+static const float asked_mm = 1;         /* who is asked to go less far is partly asked to stay */
 static const float left_out_beside = 10; /* this much more "beside" than the best, and a key is left out */
 
 /* The region's sub-goal: points it has a say in, and where they should go. */
@@ -80,6 +81,39 @@ static void set_goal(const fap_face *face, int region, goal *g)
         g->vector[i % 3 * g->plane + i / 3] = v[i / 3][i % 3];
 }
 
+/* How far a point is asked to go at all; one that is told to stay has no direction for the cosine to count. */
+static float asked_share(const fap_face *face, int p)
+{
+    float square = 0;
+
+    for (int axis = 0; axis < 3; axis++)
+        square += wanted_axis(face, p, axis) * wanted_axis(face, p, axis);
+    return fminf(1, sqrtf(square) / asked_mm);
+}
+
+/* As fap_blend_beside(), but what must stay where it is counts as beside. */
+static void find_beside(fap_zhu *zhu, const fap_face *face, int region)
+{
+    float *beside = zhu->beside, *asked = beside + face->key_count;
+
+    memset(beside, 0, 2 * sizeof *beside * (size_t)face->key_count);
+    for (int p = 0; p < FAP_POINT_COUNT; p++) {
+        const uint8_t *w = face->wanted[p];
+        const float share = face->regions.point[region][p], ask = asked_share(face, p);
+        for (int axis = 0; axis < 3; axis++) {
+            if (!w[axis] && (w[0] || w[1] || w[2]))
+                continue;
+            const float *motion = face->motion + (size_t)(3 * p + axis) * (size_t)face->key_count;
+            for (int k = 0; k < face->key_count; k++) {
+                asked[k] += share * ask * motion[k] * motion[k];
+                beside[k] += share * (1 - ask) * motion[k] * motion[k];
+            }
+        }
+    }
+    for (int k = 0; k < face->key_count; k++)
+        beside[k] = fminf(beside[k] / (asked[k] + 1e-3f), fap_blend_most_beside);
+}
+
 static float least_beside(const fap_zhu *zhu, const fap_face *face)
 {
     float least = fap_blend_most_beside;
@@ -119,7 +153,7 @@ static void solve_region(fap_zhu *zhu, const fap_face *face, int region, float *
     set_goal(face, region, &g);
     if (!g.count)
         return;
-    fap_blend_beside(face, region, face->motion, (size_t)face->key_count, zhu->beside);
+    find_beside(zhu, face, region);
     fap_ga_clear(&zhu->ga);
     add_population(zhu, face, &g);
     const fap_ga_task task = { .target = g.vector,
