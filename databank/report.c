@@ -13,9 +13,12 @@ static const char *const kinds[] = { "viseme", "expression", "extra", "unit" };
 static const char *const parts[] = { "skin",        "eye_left", "eye_right", "teeth_upper",
                                      "teeth_lower", "tongue",   "lashes" };
 
+static const char *const masks[FAP_MASK_BITS] = { "lip_upper",      "lip_lower",       "lid_upper_left",
+                                                  "lid_lower_left", "lid_upper_right", "lid_lower_right" };
+
 typedef struct numbers {
     int key_count[4], point_count;
-    uint32_t part_count[FAP_PART_COUNT];
+    uint32_t part_count[FAP_PART_COUNT], mask_count[FAP_MASK_BITS];
     size_t block_count; /* of all keys */
 } numbers;
 
@@ -32,6 +35,8 @@ static numbers count(const fap_bank *bank)
         n.point_count += fap_bank_point_get(bank, p)->present;
     for (uint32_t v = 0; v < m->vertex_count; v++)
         n.part_count[m->part[v]]++;
+    for (uint32_t i = 0; fap_bank_masks(bank) && i < m->vertex_count * FAP_MASK_BITS; i++)
+        n.mask_count[i % FAP_MASK_BITS] += fap_bank_masks(bank)[i / FAP_MASK_BITS] >> i % FAP_MASK_BITS & 1;
     return n;
 }
 
@@ -45,6 +50,43 @@ static double reach_mm(const fap_key *key)
         most = d > most ? d : most;
     }
     return most * (double)key->scale_mm;
+}
+
+static void print_basis(const fap_basis *basis)
+{
+    const fap_component *c = &basis->component[basis->component_count - 1];
+
+    printf("%d of %d models, %.2f %% of the variance", basis->component_count, basis->model_count,
+           100 * (double)c->ratio);
+}
+
+/* What the file has beyond the face itself. */
+static void print_maps(const fap_bank *bank, const numbers *n)
+{
+    const fap_region_lines *lines = fap_bank_regions(bank);
+
+    printf("masks        ");
+    for (int i = 0; fap_bank_masks(bank) && i < FAP_MASK_BITS; i++)
+        printf("%s%s %u", i ? ", " : "", masks[i], n->mask_count[i]);
+    puts(fap_bank_masks(bank) ? "" : "none");
+    if (lines)
+        printf("region map   borders at x %.1f, y %.1f; %.1f wide, %.1f high mm\n", (double)lines->middle[0],
+               (double)lines->middle[1], (double)lines->extent[0], (double)lines->extent[1]);
+    else
+        puts("region map   none");
+    printf("components   ");
+    if (fap_bank_basis(bank))
+        print_basis(fap_bank_basis(bank));
+    puts(fap_bank_basis(bank) ? "" : "none");
+}
+
+static void print_components(const fap_bank *bank)
+{
+    const fap_basis *basis = fap_bank_basis(bank);
+
+    for (int i = 0; basis && i < basis->component_count; i++)
+        printf("  component %3d  sigma %8.2f mm  together %6.2f %%\n", i + 1,
+               (double)basis->component[i].sigma_mm, 100 * (double)basis->component[i].ratio);
 }
 
 static void print_text(const report *rep, const numbers *n)
@@ -69,6 +111,8 @@ static void print_text(const report *rep, const numbers *n)
         printf("  %-10s %-20s %6u blocks, up to %5.1f mm\n", kinds[key->kind], key->name, key->block_count,
                reach_mm(key));
     }
+    print_maps(rep->bank, n);
+    print_components(rep->bank);
     observed_print(rep->bank);
 }
 
@@ -99,6 +143,40 @@ static void put_keys(json *j, const fap_bank *bank)
     json_close(j, ']');
 }
 
+static void put_components(json *j, const fap_bank *bank)
+{
+    const fap_basis *basis = fap_bank_basis(bank);
+
+    json_open(j, "components", '[');
+    for (int i = 0; basis && i < basis->component_count; i++) {
+        json_open(j, NULL, '{');
+        json_number(j, "sigma_mm", basis->component[i].sigma_mm);
+        json_number(j, "cumulative", basis->component[i].ratio);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_maps(json *j, const fap_bank *bank, const numbers *n)
+{
+    if (fap_bank_masks(bank)) {
+        json_open(j, "masks", '{');
+        for (int i = 0; i < FAP_MASK_BITS; i++)
+            json_integer(j, masks[i], n->mask_count[i]);
+        json_close(j, '}');
+    }
+    if (fap_bank_regions(bank)) {
+        const fap_region_lines *lines = fap_bank_regions(bank);
+        json_open(j, "regions", '{');
+        json_number(j, "middle_x_mm", lines->middle[0]);
+        json_number(j, "middle_y_mm", lines->middle[1]);
+        json_number(j, "width_mm", lines->extent[0]);
+        json_number(j, "height_mm", lines->extent[1]);
+        json_close(j, '}');
+    }
+    put_components(j, bank);
+}
+
 static void print_json(const report *rep, const options *opt, const numbers *n)
 {
     json j = { .out = stdout };
@@ -117,8 +195,18 @@ static void print_json(const report *rep, const options *opt, const numbers *n)
     json_integer(&j, "points", n->point_count);
     put_fapu(&j, fap_bank_fapu(rep->bank));
     put_keys(&j, rep->bank);
+    put_maps(&j, rep->bank, n);
     observed_put(&j, rep->bank);
     json_close(&j, '}');
+}
+
+static void note_basis(const report *rep, const options *opt)
+{
+    const fap_basis *basis = fap_bank_basis(rep->bank);
+
+    tool_note("%s: %s, %d components of %d models, %.2f %% of the variance, %zu bytes", opt->output,
+              fap_bank_name(rep->bank), basis->component_count, basis->model_count,
+              100 * (double)basis->component[basis->component_count - 1].ratio, rep->size);
 }
 
 static void print_success(const report *rep, const options *opt)
@@ -132,6 +220,8 @@ static void print_success(const report *rep, const options *opt)
     else if (opt->command == COMMAND_FAT && strcmp(opt->output, "-"))
         tool_note("%s: %s, %u vertices, %zu bytes", opt->output, fap_bank_name(rep->bank),
                   fap_bank_mesh(rep->bank)->vertex_count, rep->size);
+    else if (opt->command == COMMAND_PCA && strcmp(opt->output, "-"))
+        note_basis(rep, opt);
     else if (strcmp(opt->output, "-"))
         tool_note("%s: %s, %u vertices, %d key models", opt->output, fap_bank_name(rep->bank),
                   fap_bank_mesh(rep->bank)->vertex_count, fap_bank_key_count(rep->bank));

@@ -9,6 +9,7 @@
 
 #include "common/file.h"
 #include "databank/import_makehuman.h"
+#include "databank/paint.h"
 #include "databank/recipe.h"
 #include "databank/run.h"
 #include "databank/sheet.h"
@@ -158,6 +159,23 @@ static fap_err make_fat(const options *opt, report *rep)
     return err;
 }
 
+/* The bank once more, its principal components with it. */
+static fap_err add_basis(const options *opt, report *rep)
+{
+    fap_bank_builder *b = NULL;
+    fap_err err = load_bank(opt->input, rep);
+
+    if (!err)
+        err = blame(rep, opt->input, fap_bank_builder_copy(&b, rep->bank));
+    if (!err)
+        err = fap_bank_builder_basis(b, opt->components);
+    fap_bank_close(&rep->bank);
+    if (!err)
+        err = write_product(&(product){ write_bank, check_bank, b }, opt, rep);
+    fap_bank_builder_close(&b);
+    return err;
+}
+
 static fap_err build(const options *opt, report *rep)
 {
     fap_bank_builder *b;
@@ -171,8 +189,10 @@ static fap_err build(const options *opt, report *rep)
 
 static fap_err render(const options *opt, report *rep)
 {
-    const fap_err err = load_bank(opt->input, rep);
+    fap_err err = load_bank(opt->input, rep);
 
+    if (!err && opt->paint)
+        err = blame(rep, opt->input, paint_bank(&rep->bank, opt->paint));
     return err ? err : sheet_write(rep->bank, opt->output, &opt->sheet, rep->where);
 }
 
@@ -183,6 +203,7 @@ fap_err run(const options *opt, report *rep)
     case COMMAND_INFO: return load_bank(opt->input, rep);
     case COMMAND_RENDER: return render(opt, rep);
     case COMMAND_FAT: return make_fat(opt, rep);
+    case COMMAND_PCA: return add_basis(opt, rep);
     }
     return FAP_E_ARG;
 }

@@ -11,7 +11,12 @@
 #include "common/tool.h"
 #include "databank/sheet.h"
 
-enum { LABEL_PX = 7, MARGIN_PX = 4, NEUTRAL = -1 };
+enum {
+    LABEL_PX = 7,
+    MARGIN_PX = 4,
+    NEUTRAL = -1,
+    FULL_LOOK = 55000 /* 1e-5 rad: an eyeLook unit fully on */
+};
 
 typedef struct sheet {
     const fap_bank *bank;
@@ -20,6 +25,7 @@ typedef struct sheet {
     renderer *renderer;
     image tile, whole;
     float *position, *normal, *weight;
+    float *other, *other_normal; /* a second pose, for eyeballs */
     int drawn;
     progress progress;
 } sheet;
@@ -48,6 +54,82 @@ static void name_of(const sheet *s, int key, char *out, size_t size)
         snprintf(out, size, "%s", k ? k->name : "neutral");
 }
 
+/* Keys that are gazes, and the FAPs that turn the eyeballs as far: 23 to 26, left and right. */
+typedef struct gaze {
+    const char *name;
+    int yaw[2], pitch[2]; /* left eye, right eye: 1 is to the face's left, downwards */
+} gaze;
+
+static const gaze gazes[] = {
+    { "look_left", { 1, 1 }, { 0, 0 } },        { "look_right", { -1, -1 }, { 0, 0 } },
+    { "look_up", { 0, 0 }, { -1, -1 } },        { "look_down", { 0, 0 }, { 1, 1 } },
+    { "eyeLookOutLeft", { 1, 0 }, { 0, 0 } },   { "eyeLookInLeft", { -1, 0 }, { 0, 0 } },
+    { "eyeLookOutRight", { 0, -1 }, { 0, 0 } }, { "eyeLookInRight", { 0, 1 }, { 0, 0 } },
+    { "eyeLookUpLeft", { 0, 0 }, { -1, 0 } },   { "eyeLookDownLeft", { 0, 0 }, { 1, 0 } },
+    { "eyeLookUpRight", { 0, 0 }, { 0, -1 } },  { "eyeLookDownRight", { 0, 0 }, { 0, 1 } },
+};
+
+static const gaze *gaze_of(const sheet *s, int key)
+{
+    for (size_t i = 0; key != NEUTRAL && i < sizeof gazes / sizeof *gazes; i++)
+        if (!strcmp(gazes[i].name, fap_bank_key_get(s->bank, key)->name))
+            return &gazes[i];
+    return NULL;
+}
+
+static fap_frame frame_of(const gaze *g)
+{
+    fap_frame frame = { .number = 0 };
+
+    for (int eye = 0; eye < 2; eye++) {
+        frame.state[23 + eye] = frame.state[25 + eye] = FAP_CODED;
+        frame.value[23 + eye] = g->yaw[eye] * FULL_LOOK;
+        frame.value[25 + eye] = g->pitch[eye] * FULL_LOOK;
+    }
+    return frame;
+}
+
+static void swap(float **a, float **b)
+{
+    float *t = *a;
+
+    *a = *b;
+    *b = t;
+}
+
+/* Keys do not turn eyeballs: those of the pose just made come from a frame that does. */
+static void turn_eyes(sheet *s, const gaze *g)
+{
+    const fap_mesh *mesh = fap_bank_mesh(s->bank);
+    const fap_frame frame = frame_of(g);
+
+    swap(&s->position, &s->other);
+    swap(&s->normal, &s->other_normal);
+    fap_face_pose(s->face, &frame, s->position, s->normal);
+    for (size_t i = 0; i < 3 * (size_t)mesh->stride; i++) {
+        const uint8_t part = mesh->part[i % mesh->stride];
+        if (part == FAP_PART_EYE_LEFT || part == FAP_PART_EYE_RIGHT) {
+            s->other[i] = s->position[i];
+            s->other_normal[i] = s->normal[i];
+        }
+    }
+    swap(&s->position, &s->other);
+    swap(&s->normal, &s->other_normal);
+}
+
+static void pose(sheet *s, int key)
+{
+    const gaze *g = gaze_of(s, key);
+
+    if (key != NEUTRAL)
+        s->weight[key] = 1;
+    fap_face_pose_keys(s->face, s->weight, s->position, s->normal);
+    if (key != NEUTRAL)
+        s->weight[key] = 0;
+    if (g)
+        turn_eyes(s, g);
+}
+
 static fap_err draw(sheet *s, int key)
 {
     static const uint8_t black[3] = { 0, 0, 0 };
@@ -55,11 +137,7 @@ static fap_err draw(sheet *s, int key)
               y = s->drawn / s->style->columns * s->style->tile_px;
     char name[64];
 
-    if (key != NEUTRAL)
-        s->weight[key] = 1;
-    fap_face_pose_keys(s->face, s->weight, s->position, s->normal);
-    if (key != NEUTRAL)
-        s->weight[key] = 0;
+    pose(s, key);
     const render_scene scene = { s->position, s->normal, .view = render_view_of(s->style->camera) };
     const fap_err err = renderer_draw(s->renderer, &scene, &s->tile);
     if (err)
@@ -94,7 +172,9 @@ static fap_err open_face(sheet *s)
     s->position = fap_mem_calloc_aligned(&heap, floats, sizeof *s->position);
     s->normal = fap_mem_calloc_aligned(&heap, floats, sizeof *s->normal);
     s->weight = calloc((size_t)fap_bank_key_count(s->bank) + 1, sizeof *s->weight);
-    return s->position && s->normal && s->weight ? FAP_OK : FAP_E_NOMEM;
+    s->other = fap_mem_calloc_aligned(&heap, floats, sizeof *s->other);
+    s->other_normal = fap_mem_calloc_aligned(&heap, floats, sizeof *s->other_normal);
+    return s->position && s->normal && s->weight && s->other && s->other_normal ? FAP_OK : FAP_E_NOMEM;
 }
 
 static fap_err open_pictures(sheet *s, char *where)
@@ -118,6 +198,8 @@ static void sheet_close(sheet *s)
     image_free(&s->whole);
     fap_mem_free_aligned(&heap, s->position);
     fap_mem_free_aligned(&heap, s->normal);
+    fap_mem_free_aligned(&heap, s->other);
+    fap_mem_free_aligned(&heap, s->other_normal);
     free(s->weight);
     fap_face_close(&s->face);
 }

@@ -78,6 +78,51 @@ typedef struct fap_bank_point {
     uint8_t present; /**< 0: this face cannot carry the point */
 } fap_bank_point;
 
+/** Bits of a vertex's discontinuity mask: on which side of the slit of the mouth or of an eye it is. 0: free. */
+typedef enum fap_mask {
+    FAP_MASK_LIP_UPPER = 1,
+    FAP_MASK_LIP_LOWER = 2,
+    FAP_MASK_LID_UPPER_LEFT = 4,
+    FAP_MASK_LID_LOWER_LEFT = 8,
+    FAP_MASK_LID_UPPER_RIGHT = 16,
+    FAP_MASK_LID_LOWER_RIGHT = 32,
+    FAP_MASK_ALL = 63
+} fap_mask;
+#define FAP_MASK_BITS 6
+
+/** Where the face divides into left and right, upper and lower. Index 0: x to the face's left, 1: y up. */
+typedef struct fap_region_lines {
+    float middle[2];   /**< the borders */
+    float extent[2];   /**< width and height of the face, of which an overlap is a share */
+    const float *from; /**< x[stride] y[stride]: millimetres each vertex is left of, above the borders */
+} fap_region_lines;
+
+/**
+ * Principal component of the key models, and the mean model they are counted from. A shape is mean + sum of
+ * x[c] * component[c], x in standard deviations, within 3 of them. Source: Yano et al., section 5.2, eq. 2.
+ */
+typedef struct fap_component {
+    float sigma_mm; /**< one standard deviation over the whole surface: root of a sum of squares */
+    float ratio;    /**< share of the variance in this component and those before it, 0 to 1 */
+    float rest;     /**< where the neutral face is, in standard deviations */
+    uint32_t block_count;
+    float scale_mm; /**< motion as in ::fap_key, of one standard deviation */
+    const uint16_t *block;
+    const int16_t *delta;
+    const float (*point_mm)[3]; /**< [FAP_POINT_COUNT] of one standard deviation */
+    const float *mix;           /**< [model_count]: the same as weights of models */
+} fap_component;
+
+/** A bank's principal components. */
+typedef struct fap_basis {
+    int component_count, model_count;
+    const uint32_t *model; /**< [model_count]: key numbers, ascending; the first is the neutral face */
+    fap_component mean;    /**< sigma, ratio, rest and mix of no meaning */
+    const fap_component *component; /**< [component_count], sigma falling */
+} fap_basis;
+/** The neutral face among the models of a basis. */
+#define FAP_MODEL_NEUTRAL 0xffffffffu
+
 /**
  * Load a bank; every count, offset and index is checked, checksums too.
  * @param alloc  NULL: malloc
@@ -107,6 +152,12 @@ FAP_API int fap_bank_key_find(const fap_bank *bank, fap_key_kind kind, const cha
 FAP_API int fap_bank_key_number(const fap_bank *bank, fap_key_kind kind, int number);
 /** Centre of rotation of an eyeball; @p right 0 or 1. @return 0 where the face has no such eye. */
 FAP_API int fap_bank_eye(const fap_bank *bank, int right, float centre_mm[3], float *radius_mm);
+/** The region map of Zhu 2006 section 3.4.2; NULL: the file has none, a face then draws the borders itself. */
+FAP_API const fap_region_lines *fap_bank_regions(const fap_bank *bank);
+/** [stride] of ::fap_mask bits; NULL: the file has none. */
+FAP_API const uint8_t *fap_bank_masks(const fap_bank *bank);
+/** NULL: the file has none, a face that blends by components then finds them itself. */
+FAP_API const fap_basis *fap_bank_basis(const fap_bank *bank);
 
 #ifdef __cplusplus
 }

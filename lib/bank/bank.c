@@ -107,3 +107,18 @@ int fap_bank_eye(const fap_bank *bank, int right, float centre_mm[3], float *rad
     *radius_mm = eye->radius_mm;
     return 1;
 }
+
+const fap_region_lines *fap_bank_regions(const fap_bank *bank)
+{
+    return bank->regions.from ? &bank->regions : NULL;
+}
+
+const uint8_t *fap_bank_masks(const fap_bank *bank)
+{
+    return bank->mask;
+}
+
+const fap_basis *fap_bank_basis(const fap_bank *bank)
+{
+    return bank->basis.component ? &bank->basis : NULL;
+}

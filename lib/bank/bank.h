@@ -23,6 +23,9 @@ struct fap_bank {
     fap_bank_eye_place eye[2]; /* left, right */
     int key_count;
     fap_key *key;
+    fap_region_lines regions; /* from NULL: none */
+    const uint8_t *mask;      /* NULL: none */
+    fap_basis basis;          /* component NULL: none */
 };
 
 /* An empty bank, to be filled and in the end given to fap_bank_close(). NULL: out of memory. */

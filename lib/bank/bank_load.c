@@ -266,11 +266,11 @@ static int number_fits(int kind, int number)
     }
 }
 
-static void check_blocks(loader *l, const fap_key *key)
+static void check_blocks(loader *l, const uint16_t *block, uint32_t count)
 {
-    for (uint32_t b = 0; !l->err && b < key->block_count; b++) {
-        require(l, key->block[b] < l->bank->mesh.stride / FAP_BLOCK);
-        require(l, b == 0 || key->block[b] > key->block[b - 1]);
+    for (uint32_t b = 0; !l->err && b < count; b++) {
+        require(l, block[b] < l->bank->mesh.stride / FAP_BLOCK);
+        require(l, b == 0 || block[b] > block[b - 1]);
     }
 }
 
@@ -291,7 +291,7 @@ static void load_key(loader *l, fap_key *key, const uint8_t *record, const uint1
         return;
     key->block = block + first;
     key->delta = delta + (size_t)first * 3 * FAP_BLOCK;
-    check_blocks(l, key);
+    check_blocks(l, key->block, key->block_count);
 }
 
 static void load_keys(loader *l)
@@ -312,6 +312,145 @@ static void load_keys(loader *l)
         l->bank->key[k].point_mm = points[k];
         load_key(l, &l->bank->key[k], record + k * FBANK_KEY_SIZE, block, delta);
     }
+}
+
+/* --- chunks of version 1.1: each may be absent --- */
+
+static int has(loader *l, const char *tag)
+{
+    size_t size;
+
+    return chunk(l, tag, &size) != NULL;
+}
+
+static void load_regions(loader *l)
+{
+    const size_t head = FBANK_REGION_HEAD / sizeof(float), count = head + 2 * (size_t)l->bank->mesh.stride;
+    fap_region_lines *r = &l->bank->regions;
+
+    if (!has(l, "REGN"))
+        return;
+    const float *f = array(l, "REGN", count, sizeof *f);
+    if (!f)
+        return;
+    require(l, all_sane(f, count) && f[2] >= 0 && f[3] >= 0);
+    for (size_t i = 4; i < head; i++)
+        require(l, f[i] == 0);
+    *r = (fap_region_lines){ { f[0], f[1] }, { f[2], f[3] }, f + head };
+}
+
+static void load_masks(loader *l)
+{
+    if (!has(l, "MASK"))
+        return;
+    l->bank->mask = array(l, "MASK", l->bank->mesh.stride, 1);
+    for (uint32_t v = 0; !l->err && v < l->bank->mesh.stride; v++)
+        require(l, l->bank->mask[v] <= FAP_MASK_ALL);
+}
+
+/* Arrays that components are cut out of. */
+typedef struct basis_arrays {
+    uint8_t *record;
+    uint32_t run_count;
+    const uint32_t *model;
+    const float *mix, (*points)[FAP_POINT_COUNT][3];
+    const uint16_t *block;
+    const int16_t *delta;
+} basis_arrays;
+
+static void load_models(loader *l, const fap_basis *basis)
+{
+    const uint32_t keys = (uint32_t)l->bank->key_count;
+
+    for (int i = 0; !l->err && i < basis->model_count; i++) {
+        const uint32_t *m = &basis->model[i];
+        require(l, i == 0 ? *m == FAP_MODEL_NEUTRAL : *m < keys && (i == 1 || *m > m[-1]));
+    }
+}
+
+static void load_basis_arrays(loader *l, fap_basis *basis, basis_arrays *a)
+{
+    const size_t shapes = (size_t)basis->component_count + 1, models = (size_t)basis->model_count;
+
+    basis->model = array(l, "PCAM", models, 4);
+    a->mix = array(l, "PCAW", (shapes - 1) * models, 4);
+    a->points = array(l, "PCAP", shapes * FAP_POINT_COUNT * 3, 4);
+    a->block = array(l, "PCAB", a->run_count, 2);
+    a->delta = array(l, "PCAD", (size_t)a->run_count * 3 * FAP_BLOCK, 2);
+    if (l->err)
+        return;
+    require(l, all_sane(&a->points[0][0][0], shapes * FAP_POINT_COUNT * 3) &&
+                   all_sane(a->mix, (shapes - 1) * models));
+    load_models(l, basis);
+}
+
+/* The mean comes first; it has no numbers of its own. */
+static void load_component(loader *l, fap_component *c, const basis_arrays *a, size_t shape, size_t models)
+{
+    const uint8_t *record = a->record + shape * FBANK_BASIS_SIZE;
+    const uint32_t first = get32(record + 16);
+
+    c->sigma_mm = get_float(record);
+    c->ratio = get_float(record + 4);
+    c->rest = get_float(record + 8);
+    c->scale_mm = get_float(record + 12);
+    c->block_count = get32(record + 20);
+    const float numbers[] = { c->sigma_mm, c->ratio, c->rest };
+    require(l, fabsf(c->sigma_mm) <= 1e6f && all_sane(numbers + 1, 2) && c->scale_mm > 0 && c->scale_mm <= 1);
+    require(l, shape ? c->sigma_mm > 0 && c->ratio >= 0 && c->ratio <= 1
+                     : c->sigma_mm == 0 && c->ratio == 0 && c->rest == 0);
+    require(l, get32(record + 24) == 0 && get32(record + 28) == 0);
+    require(l, first <= a->run_count && c->block_count <= a->run_count - first);
+    if (l->err)
+        return;
+    c->block = a->block + first;
+    c->delta = a->delta + (size_t)first * 3 * FAP_BLOCK;
+    c->point_mm = a->points[shape];
+    c->mix = shape ? a->mix + (shape - 1) * models : NULL;
+    check_blocks(l, c->block, c->block_count);
+}
+
+static void load_components(loader *l, fap_basis *basis, const basis_arrays *a)
+{
+    const size_t count = (size_t)basis->component_count, models = (size_t)basis->model_count;
+    fap_component *c = l->err ? NULL : fap_bank_keep(l->bank, count, sizeof *c);
+
+    if (!l->err && !c)
+        fail(l, FAP_E_NOMEM);
+    if (!l->err)
+        load_component(l, &basis->mean, a, 0, models);
+    for (size_t i = 0; !l->err && i < count; i++) {
+        load_component(l, &c[i], a, i + 1, models);
+        require(l, i == 0 || (c[i].sigma_mm <= c[i - 1].sigma_mm && c[i].ratio >= c[i - 1].ratio));
+    }
+    basis->component = c;
+}
+
+static void load_basis(loader *l)
+{
+    fap_basis *basis = &l->bank->basis;
+    basis_arrays a = { 0 };
+    size_t size;
+
+    uint8_t *head = chunk(l, "PCAC", &size);
+    if (!head)
+        return;
+    require(l, size >= FBANK_BASIS_HEAD);
+    if (l->err)
+        return;
+    const uint32_t components = get32(head), models = get32(head + 4);
+    if (components > FBANK_MAX_COMPONENTS || models > FBANK_MAX_MODELS || get32(head + 8) > FBANK_MAX_SIZE)
+        fail(l, FAP_E_LIMIT);
+    require(l, components > 0 && models > 1 && get32(head + 12) == 0);
+    require(l, size == FBANK_BASIS_HEAD + (size_t)(components + 1) * FBANK_BASIS_SIZE);
+    if (l->err)
+        return;
+    basis->component_count = (int)components;
+    basis->model_count = (int)models;
+    a.record = head + FBANK_BASIS_HEAD;
+    a.run_count = get32(head + 8);
+    load_basis_arrays(l, basis, &a);
+    load_components(l, basis, &a);
 }
 
 static fap_err check_head(const uint8_t *data, size_t size)
@@ -341,6 +480,9 @@ static fap_err load(fap_bank *bank, const void *data, size_t size)
     load_eyes(&l);
     load_points(&l);
     load_keys(&l);
+    load_regions(&l);
+    load_masks(&l);
+    load_basis(&l);
     return l.err;
 }
 

@@ -16,8 +16,6 @@ static const double enough = 0.995; /* of the variance; what is left is more noi
 static const double most = 3;       /* standard deviations, eq. 2 */
 static const double lean_mm2 = 0.3; /* price of a standard deviation that nobody asked for */
 
-enum { MOST_MODELS = 128 };
-
 typedef struct state {
     fap_pca pca;
     fap_qp qp;
@@ -27,27 +25,24 @@ typedef struct state {
     double *lean; /* [count]: where this frame's coefficients lean to */
 } state;
 
-/* A bank without visemes and expressions offers all its keys. The work grows with the cube of their number. */
-static int list_models(const fap_face *face, int *key)
+/* As many as the bank has stored: whoever stored them chose their number. */
+static int load_components(state *s, const fap_face *face, const fap_basis *basis)
 {
-    int population = 0, n = 0;
+    const int failed = fap_pca_load(&s->pca, basis, &face->alloc);
 
-    for (int k = 0; k < face->key_count; k++)
-        population += face->population[k];
-    for (int k = 0; k < face->key_count && n < MOST_MODELS; k++)
-        if (face->population[k] || !population)
-            key[n++] = k;
-    return n;
+    s->count = s->pca.component_count;
+    return failed;
 }
 
 static int open_components(state *s, const fap_face *face)
 {
-    int *key = fap_mem_calloc(&face->alloc, (size_t)face->key_count, sizeof *key);
+    const fap_basis *basis = fap_bank_basis(face->bank);
+    int key[FAP_PCA_MODELS];
 
-    if (!key)
-        return 1;
-    const int failed = fap_pca_open(&s->pca, face->bank, key, list_models(face, key), 1, &face->alloc);
-    fap_mem_free(&face->alloc, key);
+    if (basis)
+        return load_components(s, face, basis);
+    const int count = fap_pca_population(face->bank, key);
+    const int failed = fap_pca_open(&s->pca, face->bank, key, count, 1, &face->alloc);
     while (!failed && s->count < s->pca.component_count && fap_pca_contribution(&s->pca, s->count) < enough)
         s->count++;
     return failed;

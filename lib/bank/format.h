@@ -14,7 +14,7 @@
 
 enum {
     FBANK_MAJOR = 1, /* another one means another meaning; a minor one only adds chunks */
-    FBANK_MINOR = 0,
+    FBANK_MINOR = 1,
     FBANK_HEAD_SIZE = 32,
     FBANK_ENTRY_SIZE = 16,
     FBANK_ALIGN = 32,
@@ -23,6 +23,11 @@ enum {
     FBANK_KEY_SIZE = 48,   /* KEYS record */
     FBANK_KEY_NAME = 32,   /* of it: the name, with a NUL */
     FBANK_MAX_KEYS = 4096,
+    FBANK_REGION_HEAD = 32, /* REGN: borders, before the distances */
+    FBANK_BASIS_HEAD = 16,  /* PCAC: counts, before the records */
+    FBANK_BASIS_SIZE = 32,  /* PCAC record */
+    FBANK_MAX_COMPONENTS = 128,
+    FBANK_MAX_MODELS = 512,
 };
 #define FBANK_MAX_SIZE      (256u << 20)
 #define FBANK_MAX_VERTICES  (65536u * 8) /* block numbers are 16 bits */

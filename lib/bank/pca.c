@@ -165,6 +165,50 @@ static int solve(fap_pca *pca, const fap_bank *bank, const fap_allocator *alloc)
     return 0;
 }
 
+int fap_pca_population(const fap_bank *bank, int key[FAP_PCA_MODELS])
+{
+    const int keys = fap_bank_key_count(bank);
+    int population = 0, n = 0;
+
+    for (int k = 0; k < keys; k++)
+        population += fap_bank_key_get(bank, k)->kind != FAP_KEY_UNIT;
+    for (int k = 0; k < keys && n < FAP_PCA_MODELS; k++)
+        if (!population || fap_bank_key_get(bank, k)->kind != FAP_KEY_UNIT)
+            key[n++] = k;
+    return n;
+}
+
+static int take_room(fap_pca *pca, const fap_allocator *alloc)
+{
+    const size_t n = (size_t)pca->model_count;
+
+    pca->key = fap_mem_calloc(alloc, n, sizeof *pca->key);
+    pca->variance = fap_mem_calloc(alloc, n, sizeof *pca->variance);
+    pca->mix = fap_mem_calloc(alloc, n * n, sizeof *pca->mix);
+    pca->rest = fap_mem_calloc(alloc, n, sizeof *pca->rest);
+    return !pca->key || !pca->variance || !pca->mix || !pca->rest;
+}
+
+int fap_pca_load(fap_pca *pca, const fap_basis *basis, const fap_allocator *alloc)
+{
+    const int n = basis->model_count;
+
+    *pca = (fap_pca){ .model_count = n, .neutral = 1 };
+    if (take_room(pca, alloc))
+        return 1;
+    pca->component_count = basis->component_count < n ? basis->component_count : n;
+    for (int j = 0; j < n; j++)
+        pca->key[j] = j < pca->neutral ? -1 : (int)basis->model[j];
+    for (int c = 0; c < pca->component_count; c++) {
+        const fap_component *from = &basis->component[c];
+        pca->variance[c] = (double)from->sigma_mm * from->sigma_mm;
+        pca->rest[c] = from->rest;
+        for (int j = 0; j < n; j++)
+            pca->mix[(size_t)c * (size_t)n + (size_t)j] = from->mix[j];
+    }
+    return 0;
+}
+
 int fap_pca_open(fap_pca *pca, const fap_bank *bank, const int *key, int count, int with_neutral,
                  const fap_allocator *alloc)
 {
@@ -173,11 +217,7 @@ int fap_pca_open(fap_pca *pca, const fap_bank *bank, const int *key, int count, 
     memset(pca, 0, sizeof *pca);
     pca->neutral = with_neutral != 0;
     pca->model_count = (int)n;
-    pca->key = fap_mem_calloc(alloc, n, sizeof *pca->key);
-    pca->variance = fap_mem_calloc(alloc, n, sizeof *pca->variance);
-    pca->mix = fap_mem_calloc(alloc, n * n, sizeof *pca->mix);
-    pca->rest = fap_mem_calloc(alloc, n, sizeof *pca->rest);
-    if (!pca->key || !pca->variance || !pca->mix || !pca->rest)
+    if (take_room(pca, alloc))
         return 1;
     for (int i = 0; i < pca->model_count; i++)
         pca->key[i] = i < pca->neutral ? -1 : key[i - pca->neutral];

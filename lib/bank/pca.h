@@ -20,9 +20,16 @@ typedef struct fap_pca {
         *rest; /* [component_count]: coordinates of the neutral face, in standard deviations; 0 without it */
 } fap_pca;
 
+enum { FAP_PCA_MODELS = 128 };
+
+/* The models a face is made of by components: its population, or all keys of a bank that has none. Fills @p key,
+ * returns their number. The work grows with the cube of it. */
+int fap_pca_population(const fap_bank *bank, int key[FAP_PCA_MODELS]);
 /* @param key  bank indices of @p count models. Non-zero: no memory. Close in either case. */
 int fap_pca_open(fap_pca *pca, const fap_bank *bank, const int *key, int count, int with_neutral,
                  const fap_allocator *alloc);
+/* The components a bank has stored. Non-zero: no memory. Close in either case. */
+int fap_pca_load(fap_pca *pca, const fap_basis *basis, const fap_allocator *alloc);
 void fap_pca_close(fap_pca *pca, const fap_allocator *alloc);
 /* Share of the variance in the first @p components, 0 to 1. */
 double fap_pca_contribution(const fap_pca *pca, int components);

@@ -16,14 +16,14 @@ typedef struct borders {
     float middle[2], half_width[2]; /* x to the face's left, y up */
 } borders;
 
-static float ramp(const borders *b, int axis, float at)
+static float ramp(const borders *b, int axis, float from)
 {
-    const float half = b->half_width[axis], from = at - b->middle[axis];
+    const float half = b->half_width[axis];
 
     return half > 0 ? fminf(1, fmaxf(0, 0.5f + 0.5f * from / half)) : from > 0;
 }
 
-/* Regions: left, right; or upper left, upper right, lower left, lower right. */
+/* Regions: left, right; or upper left, upper right, lower left, lower right. @p x, @p y: from the borders. */
 static void share_out(const borders *b, float x, float y, float share[FAP_REGION_MAX])
 {
     const float left = ramp(b, 0, x), upper = ramp(b, 1, y);
@@ -80,20 +80,19 @@ static float extent(const fap_bank *bank, int axis)
     return hi > lo ? hi - lo : 0;
 }
 
-static borders find_borders(const fap_bank *bank, int count, float overlap)
+void fap_region_measure(const fap_bank *bank, fap_region_lines *lines)
 {
     static const char *const centre[] = { "2.1", "9.3", "9.15", "9.12", NULL };
     static const char *const eyes[] = { "3.1", "3.2", "3.3", "3.4", NULL };
     static const char *const lips[] = { "2.2", "2.3", "8.1", "8.2", NULL };
-    borders b = { .count = count };
     float eye, mouth;
 
-    mean_of(bank, centre, 0, &b.middle[0]);
+    *lines = (fap_region_lines){ .from = NULL };
+    mean_of(bank, centre, 0, &lines->middle[0]);
     if (mean_of(bank, eyes, 1, &eye) && mean_of(bank, lips, 1, &mouth))
-        b.middle[1] = (eye + mouth) / 2;
+        lines->middle[1] = (eye + mouth) / 2;
     for (int axis = 0; axis < 2; axis++)
-        b.half_width[axis] = overlap * extent(bank, axis);
-    return b;
+        lines->extent[axis] = extent(bank, axis);
 }
 
 /* Middle of each part that is no skin. */
@@ -117,16 +116,27 @@ static int is_body(uint8_t part)
     return part != FAP_PART_SKIN && part != FAP_PART_LASHES;
 }
 
-static void fill_map(fap_regions *r, const borders *b, const fap_mesh *mesh)
+void fap_region_distances(const fap_bank *bank, const fap_region_lines *lines, float *from)
 {
-    float middle[FAP_PART_COUNT][2], share[FAP_REGION_MAX];
+    const fap_mesh *mesh = fap_bank_mesh(bank);
+    float middle[FAP_PART_COUNT][2];
 
     find_middles(mesh, middle);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        for (uint32_t axis = 0; axis < 2; axis++) {
+            const uint8_t part = mesh->part[v] % FAP_PART_COUNT;
+            const float at = is_body(part) ? middle[part][axis] : mesh->position[axis * mesh->stride + v];
+            from[axis * mesh->stride + v] = at - lines->middle[axis];
+        }
+}
+
+static void fill_map(fap_regions *r, const borders *b, const fap_mesh *mesh, const float *from)
+{
+    float share[FAP_REGION_MAX];
+
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        const float *m = middle[mesh->part[v] % FAP_PART_COUNT];
-        const int body = is_body(mesh->part[v]);
         float *block = r->map + (size_t)(v / FAP_BLOCK) * FAP_REGION_MAX * FAP_BLOCK + v % FAP_BLOCK;
-        share_out(b, body ? m[0] : mesh->position[v], body ? m[1] : mesh->position[mesh->stride + v], share);
+        share_out(b, from[v], from[mesh->stride + v], share);
         for (int i = 0; i < FAP_REGION_MAX; i++)
             block[i * FAP_BLOCK] = share[i];
     }
@@ -137,7 +147,7 @@ static void share_point(fap_regions *r, const borders *b, const fap_bank_point *
 {
     float share[FAP_REGION_MAX];
 
-    share_out(b, p->position_mm[0], p->position_mm[1], share);
+    share_out(b, p->position_mm[0] - b->middle[0], p->position_mm[1] - b->middle[1], share);
     for (int i = 0; i < FAP_REGION_MAX; i++) {
         float sum = 0;
         for (uint32_t k = 0; k < p->vertex_count && r->map; k++)
@@ -147,20 +157,42 @@ static void share_point(fap_regions *r, const borders *b, const fap_bank_point *
     }
 }
 
+/* The bank's own distances where it has them. */
+static int open_map(fap_regions *r, const borders *b, const fap_bank *bank, const fap_region_lines *lines,
+                    const fap_allocator *alloc)
+{
+    const fap_mesh *mesh = fap_bank_mesh(bank);
+    float *own = lines->from ? NULL : fap_mem_calloc(alloc, 2 * (size_t)mesh->stride, sizeof *own);
+
+    r->map = fap_mem_calloc(alloc, (size_t)mesh->stride * FAP_REGION_MAX, sizeof *r->map);
+    const int failed = !r->map || (!lines->from && !own);
+    if (own)
+        fap_region_distances(bank, lines, own);
+    if (!failed)
+        fill_map(r, b, mesh, own ? own : lines->from);
+    fap_mem_free(alloc, own);
+    return failed;
+}
+
 int fap_regions_open(fap_regions *r, const fap_bank *bank, int count, float overlap,
                      const fap_allocator *alloc)
 {
-    const fap_mesh *mesh = fap_bank_mesh(bank);
-    const borders b = find_borders(bank, count, overlap);
+    const fap_region_lines *stored = fap_bank_regions(bank);
+    fap_region_lines lines;
+    borders b = { .count = count };
 
     memset(r, 0, sizeof *r);
     r->count = count;
-    if (count > 1) {
-        r->map = fap_mem_calloc(alloc, (size_t)mesh->stride * FAP_REGION_MAX, sizeof *r->map);
-        if (!r->map)
-            return 1;
-        fill_map(r, &b, mesh);
+    if (stored)
+        lines = *stored;
+    else
+        fap_region_measure(bank, &lines);
+    for (int axis = 0; axis < 2; axis++) {
+        b.middle[axis] = lines.middle[axis];
+        b.half_width[axis] = overlap * lines.extent[axis];
     }
+    if (count > 1 && open_map(r, &b, bank, &lines, alloc))
+        return 1;
     for (int p = 0; p < FAP_POINT_COUNT; p++)
         share_point(r, &b, fap_bank_point_get(bank, p), p);
     return 0;

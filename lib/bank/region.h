@@ -23,6 +23,10 @@ typedef struct fap_regions {
  */
 int fap_regions_open(fap_regions *r, const fap_bank *bank, int count, float overlap,
                      const fap_allocator *alloc);
+/* Borders of a face from its feature points, for a bank that has none of its own; from is NULL. */
+void fap_region_measure(const fap_bank *bank, fap_region_lines *lines);
+/* @p from  [2][stride]: how far each vertex is from those borders; what is no skin counts as one body. */
+void fap_region_distances(const fap_bank *bank, const fap_region_lines *lines, float *from);
 void fap_regions_close(fap_regions *r, const fap_allocator *alloc);
 
 #endif

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "bank/gauss.h"
+#include "bank/mask.h"
 #include "bank/residual.h"
 #include "base/mem.h"
 
@@ -103,12 +104,14 @@ static float smooth_distance(const fap_graph *g, uint32_t v, const fap_bank_poin
     return line + (way - line) * t * t * (3 - 2 * t);
 }
 
+/* @p mask, @p beyond: vertices beyond a slit, where the bank says so. */
 static void fill_values(const fap_graph *g, const fap_bank_point *point, float radius,
-                        const uint32_t *follows, float *value)
+                        const uint32_t *follows, const uint8_t *mask, uint8_t beyond, float *value)
 {
     for (uint32_t v = 0; v < g->vertex_count; v++) {
         const uint32_t w = g->weld[follows[v]];
-        value[v] = isinf(g->distance[w]) ? 0 : wendland(smooth_distance(g, w, point) / radius);
+        const int cut = mask && (mask[follows[v]] & beyond);
+        value[v] = isinf(g->distance[w]) || cut ? 0 : wendland(smooth_distance(g, w, point) / radius);
     }
 }
 
@@ -161,7 +164,8 @@ static int open_field(fap_residual *r, fap_graph *g, const fap_bank *bank, int p
     if (!point->present || !point->vertex_count || !(widest > 0))
         return 0;
     fap_graph_flood(g, point->vertex, point->vertex_count, detour_far * widest);
-    fill_values(g, point, radius_of(g, bank, p, scale), follows, value);
+    fill_values(g, point, radius_of(g, bank, p, scale), follows, fap_bank_masks(bank),
+                fap_mask_across(fap_mask_of_point(p)), value);
     note_pull(r, bank, p, value);
     return pack(&r->field[p], value, g->stride, alloc);
 }

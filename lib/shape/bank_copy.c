@@ -74,6 +74,17 @@ static void copy_eyes(fap_bank_builder *b, const fap_bank *bank)
     }
 }
 
+static fap_err copy_maps(fap_bank_builder *b, const fap_bank *bank)
+{
+    fap_err err = FAP_OK;
+
+    if (fap_bank_masks(bank))
+        err = fap_bank_builder_masks(b, fap_bank_masks(bank));
+    if (!err && fap_bank_regions(bank))
+        err = fap_bank_builder_regions(b, fap_bank_regions(bank), fap_bank_mesh(bank)->stride);
+    return err;
+}
+
 fap_err fap_bank_builder_copy(fap_bank_builder **out, const fap_bank *bank)
 {
     *out = NULL;
@@ -82,6 +93,8 @@ fap_err fap_bank_builder_copy(fap_bank_builder **out, const fap_bank *bank)
         err = copy_points(*out, bank);
     if (!err)
         err = copy_keys(*out, bank);
+    if (!err)
+        err = copy_maps(*out, bank);
     if (!err)
         copy_eyes(*out, bank);
     if (err)

@@ -10,8 +10,12 @@
 #include <fap/studio/bank_build.h>
 
 #include "bank/format.h"
+#include "bank/mask.h"
 #include "bank/pack.h"
+#include "bank/pca.h"
 #include "bank/recipe.h"
+#include "bank/region.h"
+#include "base/mem.h"
 #include "shape/bytes.h"
 
 typedef struct build_key {
@@ -36,7 +40,11 @@ struct fap_bank_builder {
     build_point point[FAP_POINT_COUNT];
     float eye[2][4];
     int key_count;
-    build_key *key; /* FBANK_MAX_KEYS, of which key_count are used */
+    build_key *key;   /* FBANK_MAX_KEYS, of which key_count are used */
+    uint8_t *mask;    /* NULL: to be derived */
+    float (*from)[2]; /* NULL: to be derived, and the lines with it */
+    fap_region_lines lines;
+    int components; /* 0: no basis */
 };
 
 /* --- collecting --- */
@@ -119,6 +127,8 @@ void fap_bank_builder_close(fap_bank_builder **b)
     free((*b)->colour);
     free((*b)->triangle);
     free((*b)->key);
+    free((*b)->mask);
+    free((*b)->from);
     free(*b);
     *b = NULL;
 }
@@ -162,6 +172,44 @@ void fap_bank_builder_eye(fap_bank_builder *b, int right, const float centre_mm[
 {
     memcpy(b->eye[right != 0], centre_mm, 3 * sizeof *centre_mm);
     b->eye[right != 0][3] = radius_mm;
+}
+
+void fap_bank_builder_colours(fap_bank_builder *b, const uint8_t (*colour)[4])
+{
+    memcpy(b->colour, colour, b->vertex_count * sizeof *colour);
+}
+
+fap_err fap_bank_builder_masks(fap_bank_builder *b, const uint8_t *mask)
+{
+    for (uint32_t v = 0; v < b->vertex_count; v++)
+        if (mask[v] > FAP_MASK_ALL)
+            return FAP_E_ARG;
+    free(b->mask);
+    b->mask = copy_of(mask, b->vertex_count, 1);
+    return b->mask ? FAP_OK : FAP_E_NOMEM;
+}
+
+fap_err fap_bank_builder_regions(fap_bank_builder *b, const fap_region_lines *lines, uint32_t stride)
+{
+    float(*from)[2] = malloc(b->vertex_count * sizeof *from);
+
+    if (!from)
+        return FAP_E_NOMEM;
+    for (uint32_t v = 0; v < b->vertex_count; v++)
+        for (uint32_t axis = 0; axis < 2; axis++)
+            from[v][axis] = lines->from[axis * (size_t)stride + v];
+    free(b->from);
+    b->from = from;
+    b->lines = *lines;
+    return FAP_OK;
+}
+
+fap_err fap_bank_builder_basis(fap_bank_builder *b, int components)
+{
+    if (components < 0 || components > FBANK_MAX_COMPONENTS)
+        return FAP_E_ARG;
+    b->components = components;
+    return FAP_OK;
 }
 
 static int number_fits(fap_key_kind kind, int number)
@@ -305,11 +353,20 @@ enum chunk_id {
     C_KBLK,
     C_KDLT,
     C_KPNT,
+    C_REGN,
+    C_MASK,
+    C_PCAC,
+    C_PCAM,
+    C_PCAW,
+    C_PCAP,
+    C_PCAB,
+    C_PCAD,
     C_COUNT
 };
 
 static const char tags[C_COUNT][5] = { "NAME", "HEAD", "VPOS", "VPRT", "VHDW", "VCOL", "VTUV", "TRIS",
-                                       "FAPU", "EYES", "PNTS", "PVTX", "KEYS", "KBLK", "KDLT", "KPNT" };
+                                       "FAPU", "EYES", "PNTS", "PVTX", "KEYS", "KBLK", "KDLT", "KPNT",
+                                       "REGN", "MASK", "PCAC", "PCAM", "PCAW", "PCAP", "PCAB", "PCAD" };
 
 typedef struct image {
     const fap_bank_builder *b;
@@ -386,30 +443,42 @@ static void put_key_points(image *m, const build_key *k)
     }
 }
 
+typedef struct packed {
+    float scale;
+    uint32_t count; /* of blocks */
+} packed;
+
+/* m->motion in steps, blocks that stand still left out. */
+static packed put_motion(image *m, fap_bytes *blocks, fap_bytes *deltas)
+{
+    const packed p = { fap_pack_scale(m->motion, m->stride),
+                       fap_pack_blocks(m->motion, m->stride, m->block) };
+
+    fap_pack_delta(m->motion, m->stride, m->block, p.count, p.scale, m->delta);
+    for (uint32_t i = 0; i < p.count; i++)
+        fap_bytes_16(blocks, m->block[i]);
+    for (uint32_t i = 0; i < p.count * 3 * FAP_BLOCK; i++)
+        fap_bytes_16(deltas, (uint16_t)m->delta[i]);
+    return p;
+}
+
 static void put_key(image *m, const build_key *k)
 {
     for (int axis = 0; axis < 3; axis++)
         for (uint32_t v = 0; v < m->b->vertex_count; v++)
             m->motion[axis * m->stride + v] = k->delta[m->order[v]][axis];
 
-    const float scale = fap_pack_scale(m->motion, m->stride);
-    const uint32_t count = fap_pack_blocks(m->motion, m->stride, m->block);
-    fap_pack_delta(m->motion, m->stride, m->block, count, scale, m->delta);
-    for (uint32_t i = 0; i < count; i++)
-        fap_bytes_16(&m->chunk[C_KBLK], m->block[i]);
-    for (uint32_t i = 0; i < count * 3 * FAP_BLOCK; i++)
-        fap_bytes_16(&m->chunk[C_KDLT], (uint16_t)m->delta[i]);
-
+    const packed p = put_motion(m, &m->chunk[C_KBLK], &m->chunk[C_KDLT]);
     fap_bytes *c = &m->chunk[C_KEYS];
     fap_bytes_put(c, k->name, FBANK_KEY_NAME);
     fap_bytes_8(c, (uint8_t)k->kind);
     fap_bytes_8(c, (uint8_t)k->number);
     fap_bytes_16(c, 0);
     fap_bytes_32(c, m->run_count);
-    fap_bytes_float(c, scale);
-    fap_bytes_32(c, count);
+    fap_bytes_float(c, p.scale);
+    fap_bytes_32(c, p.count);
     put_key_points(m, k);
-    m->run_count += count;
+    m->run_count += p.count;
 }
 
 static void put_counts(image *m)
@@ -419,6 +488,14 @@ static void put_counts(image *m)
     for (int i = 0; i < 6; i++)
         fap_bytes_32(&m->chunk[C_HEAD], counts[i]);
     fap_bytes_put(&m->chunk[C_NAME], m->b->name, strlen(m->b->name));
+}
+
+static fap_err check_chunks(const image *m)
+{
+    for (int c = 0; c < C_COUNT; c++)
+        if (m->chunk[c].failed)
+            return FAP_E_NOMEM;
+    return FAP_OK;
 }
 
 /* Key models first, units last: the population of the GA is then one run. */
@@ -434,10 +511,7 @@ static fap_err fill_chunks(image *m)
             if ((m->b->key[k].kind == FAP_KEY_UNIT) == units)
                 put_key(m, &m->b->key[k]);
     put_counts(m);
-    for (int c = 0; c < C_COUNT; c++)
-        if (m->chunk[c].failed)
-            return FAP_E_NOMEM;
-    return FAP_OK;
+    return check_chunks(m);
 }
 
 static size_t aligned(size_t n)
@@ -447,7 +521,16 @@ static size_t aligned(size_t n)
 
 static int has_chunk(const image *m, int c)
 {
-    return c != C_VTUV || m->b->uv;
+    return c < C_VTUV || (c > C_VTUV && c < C_REGN) || m->chunk[c].size;
+}
+
+static uint32_t count_chunks(const image *m)
+{
+    uint32_t count = 0;
+
+    for (int c = 0; c < C_COUNT; c++)
+        count += has_chunk(m, c) != 0;
+    return count;
 }
 
 static void put_table(const image *m, fap_bytes *table, uint32_t count, size_t *end)
@@ -488,7 +571,7 @@ static fap_err send(const fap_writer *out, const fap_bytes *bytes, size_t padded
 
 static fap_err send_all(const image *m, const fap_writer *out)
 {
-    const uint32_t count = C_COUNT - !m->b->uv;
+    const uint32_t count = count_chunks(m);
     fap_bytes head = { 0 }, table = { 0 };
     size_t total;
 
@@ -505,6 +588,185 @@ static fap_err send_all(const image *m, const fap_writer *out)
     fap_bytes_free(&head);
     fap_bytes_free(&table);
     return err;
+}
+
+/* --- chunks that are found out from the rest of the file, by the code that a face would use --- */
+
+static void put_floats(fap_bytes *out, const float *value, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        fap_bytes_float(out, value[i]);
+}
+
+static void put_lines(fap_bytes *out, const fap_region_lines *lines)
+{
+    const float head[FBANK_REGION_HEAD / 4] = { lines->middle[0], lines->middle[1], lines->extent[0],
+                                                lines->extent[1] };
+    put_floats(out, head, FBANK_REGION_HEAD / 4);
+}
+
+static void put_own_regions(image *m)
+{
+    put_lines(&m->chunk[C_REGN], &m->b->lines);
+    for (int axis = 0; axis < 2; axis++)
+        for (uint32_t v = 0; v < m->stride; v++)
+            fap_bytes_float(&m->chunk[C_REGN], v < m->b->vertex_count ? m->b->from[m->order[v]][axis] : 0);
+}
+
+static fap_err put_regions(image *m, const fap_bank *bank)
+{
+    fap_region_lines lines;
+
+    if (m->b->from) {
+        put_own_regions(m);
+        return FAP_OK;
+    }
+    float *from = calloc(2 * (size_t)m->stride, sizeof *from);
+    if (!from)
+        return FAP_E_NOMEM;
+    fap_region_measure(bank, &lines);
+    fap_region_distances(bank, &lines, from);
+    put_lines(&m->chunk[C_REGN], &lines);
+    put_floats(&m->chunk[C_REGN], from, 2 * (size_t)m->stride);
+    free(from);
+    return FAP_OK;
+}
+
+static fap_err put_masks(image *m, const fap_bank *bank)
+{
+    const fap_allocator heap = fap_mem_allocator(NULL);
+    uint8_t *mask = calloc(m->stride, 1);
+    const int failed = !mask || (!m->b->mask && fap_mask_derive(bank, mask, &heap));
+
+    for (uint32_t v = 0; m->b->mask && mask && v < m->b->vertex_count; v++)
+        mask[v] = m->b->mask[m->order[v]];
+    if (!failed)
+        fap_bytes_put(&m->chunk[C_MASK], mask, m->stride);
+    free(mask);
+    return failed ? FAP_E_NOMEM : FAP_OK;
+}
+
+static void add_key(image *m, const fap_key *key, float weight)
+{
+    for (uint32_t b = 0; b < key->block_count; b++)
+        for (uint32_t i = 0; i < 3 * FAP_BLOCK; i++)
+            m->motion[i / FAP_BLOCK * m->stride + (uint32_t)key->block[b] * FAP_BLOCK + i % FAP_BLOCK] +=
+                weight * key->scale_mm * key->delta[(size_t)b * 3 * FAP_BLOCK + i];
+}
+
+static void put_shape_points(image *m, const fap_bank *bank, const fap_pca *pca, const float *weight)
+{
+    for (int i = 0; i < FAP_POINT_COUNT * 3; i++) {
+        float sum = 0;
+        for (int j = pca->neutral; j < pca->model_count; j++)
+            sum += weight[j] * fap_bank_key_get(bank, pca->key[j])->point_mm[i / 3][i % 3];
+        fap_bytes_float(&m->chunk[C_PCAP], sum);
+    }
+}
+
+/* One record, its points and its blocks: the sum of models by @p weight. @p number: sigma, ratio, rest. */
+static void put_shape(image *m, const fap_bank *bank, const fap_pca *pca, const float *weight,
+                      const float number[3])
+{
+    memset(m->motion, 0, 3 * (size_t)m->stride * sizeof *m->motion);
+    for (int j = pca->neutral; j < pca->model_count; j++)
+        add_key(m, fap_bank_key_get(bank, pca->key[j]), weight[j]);
+    put_shape_points(m, bank, pca, weight);
+
+    const uint32_t first = (uint32_t)(m->chunk[C_PCAB].size / 2);
+    const packed p = put_motion(m, &m->chunk[C_PCAB], &m->chunk[C_PCAD]);
+    put_floats(&m->chunk[C_PCAC], number, 3);
+    fap_bytes_float(&m->chunk[C_PCAC], p.scale);
+    fap_bytes_32(&m->chunk[C_PCAC], first);
+    fap_bytes_32(&m->chunk[C_PCAC], p.count);
+    fap_bytes_32(&m->chunk[C_PCAC], 0);
+    fap_bytes_32(&m->chunk[C_PCAC], 0);
+}
+
+static void put_mean(image *m, const fap_bank *bank, const fap_pca *pca, float *weight)
+{
+    static const float none[3] = { 0 };
+
+    for (int j = 0; j < pca->model_count; j++)
+        weight[j] = 1.0f / (float)pca->model_count;
+    put_shape(m, bank, pca, weight, none);
+}
+
+static void put_component(image *m, const fap_bank *bank, const fap_pca *pca, int c, float *weight)
+{
+    const float number[3] = { (float)sqrt(pca->variance[c]), (float)fap_pca_contribution(pca, c + 1),
+                              (float)pca->rest[c] };
+
+    for (int j = 0; j < pca->model_count; j++)
+        weight[j] = (float)pca->mix[(size_t)c * (size_t)pca->model_count + (size_t)j];
+    put_floats(&m->chunk[C_PCAW], weight, (size_t)pca->model_count);
+    put_shape(m, bank, pca, weight, number);
+}
+
+/* Blocks of all shapes are counted only when they are there, so their number is filled in last. */
+static fap_err put_shapes(image *m, const fap_bank *bank, const fap_pca *pca)
+{
+    const int count = pca->component_count < m->b->components ? pca->component_count : m->b->components;
+    float *weight = malloc((size_t)pca->model_count * sizeof *weight);
+    fap_bytes *c = &m->chunk[C_PCAC];
+
+    if (!weight || !count) {
+        free(weight);
+        return weight ? FAP_E_DATA : FAP_E_NOMEM;
+    }
+    const uint32_t head[4] = { (uint32_t)count, (uint32_t)pca->model_count };
+    for (int i = 0; i < 4; i++)
+        fap_bytes_32(c, head[i]);
+    for (int j = 0; j < pca->model_count; j++)
+        fap_bytes_32(&m->chunk[C_PCAM], pca->key[j] < 0 ? FAP_MODEL_NEUTRAL : (uint32_t)pca->key[j]);
+    put_mean(m, bank, pca, weight);
+    for (int i = 0; i < count; i++)
+        put_component(m, bank, pca, i, weight);
+    free(weight);
+    const uint32_t runs = (uint32_t)(m->chunk[C_PCAB].size / 2);
+    for (int i = 0; i < 4 && !c->failed; i++)
+        c->data[8 + i] = (uint8_t)(runs >> 8 * i);
+    return FAP_OK;
+}
+
+static fap_err put_basis(image *m, const fap_bank *bank)
+{
+    const fap_allocator heap = fap_mem_allocator(NULL);
+    fap_pca pca;
+    int key[FAP_PCA_MODELS];
+    const int count = fap_pca_population(bank, key);
+    fap_err err = fap_pca_open(&pca, bank, key, count, 1, &heap) ? FAP_E_NOMEM : FAP_OK;
+
+    if (!err)
+        err = put_shapes(m, bank, &pca);
+    fap_pca_close(&pca, &heap);
+    return err;
+}
+
+static int keep_bytes(void *user, const void *data, size_t size)
+{
+    fap_bytes_put(user, data, size);
+    return ((fap_bytes *)user)->failed;
+}
+
+static fap_err derive_chunks(image *m)
+{
+    fap_bytes file = { 0 };
+    const fap_writer w = { keep_bytes, &file };
+    fap_bank *bank = NULL;
+
+    fap_err err = send_all(m, &w);
+    if (!err)
+        err = fap_bank_load(&bank, file.data, file.size, NULL);
+    fap_bytes_free(&file);
+    if (!err)
+        err = put_regions(m, bank);
+    if (!err)
+        err = put_masks(m, bank);
+    if (!err && m->b->components)
+        err = put_basis(m, bank);
+    fap_bank_close(&bank);
+    return err ? err : check_chunks(m);
 }
 
 static int image_open(image *m, const fap_bank_builder *b)
@@ -548,6 +810,8 @@ fap_err fap_bank_builder_write(fap_bank_builder *b, const fap_writer *out)
         return FAP_E_DATA;
     fap_err err = image_open(&m, b) ? fill_chunks(&m) : FAP_E_NOMEM;
 
+    if (!err)
+        err = derive_chunks(&m);
     if (!err)
         err = send_all(&m, out);
     image_close(&m);

@@ -9,77 +9,7 @@
 #include <fap/studio/bank_build.h>
 
 #include "bank/format.h"
-#include "shape/bytes.h"
-
-static int take(void *user, const void *data, size_t size)
-{
-    fap_bytes_put(user, data, size);
-    return ((fap_bytes *)user)->failed;
-}
-
-/* The built-in face as a file. */
-static fap_bytes builtin_file(void)
-{
-    fap_bytes file = { 0 };
-    const fap_writer w = { take, &file };
-    fap_bank *bank;
-    fap_bank_builder *b;
-
-    assert_int_equal(fap_bank_builtin(&bank, NULL), FAP_OK);
-    assert_int_equal(fap_bank_builder_copy(&b, bank), FAP_OK);
-    assert_int_equal(fap_bank_builder_write(b, &w), FAP_OK);
-    fap_bank_builder_close(&b);
-    fap_bank_close(&bank);
-    return file;
-}
-
-static fap_err load_result(const uint8_t *data, size_t size)
-{
-    fap_bank *bank;
-    const fap_err err = fap_bank_load(&bank, data, size, NULL);
-
-    assert_true((err == FAP_OK) == (bank != NULL));
-    fap_bank_close(&bank);
-    return err;
-}
-
-static void put32(uint8_t *p, uint32_t v)
-{
-    for (int i = 0; i < 4; i++)
-        p[i] = (uint8_t)(v >> 8 * i);
-}
-
-static uint32_t get32(const uint8_t *p)
-{
-    return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
-static uint8_t *entry_of(fap_bytes *file, const char *tag)
-{
-    for (uint32_t i = 0; i < get32(file->data + 12); i++)
-        if (!memcmp(file->data + FBANK_HEAD_SIZE + i * FBANK_ENTRY_SIZE, tag, 4))
-            return file->data + FBANK_HEAD_SIZE + i * FBANK_ENTRY_SIZE;
-    fail();
-    return NULL;
-}
-
-static uint8_t *chunk_of(fap_bytes *file, const char *tag)
-{
-    return file->data + get32(entry_of(file, tag) + 4);
-}
-
-/* Makes every checksum right again, so that a test reaches the check behind it. */
-static void seal(fap_bytes *file)
-{
-    const uint32_t count = get32(file->data + 12);
-
-    for (uint32_t i = 0; i < count; i++) {
-        uint8_t *e = file->data + FBANK_HEAD_SIZE + i * FBANK_ENTRY_SIZE;
-        if (get32(e + 4) <= file->size && get32(e + 8) <= file->size - get32(e + 4))
-            put32(e + 12, fbank_crc32(file->data + get32(e + 4), get32(e + 8)));
-    }
-    put32(file->data + 20, fbank_crc32(file->data + FBANK_HEAD_SIZE, count * FBANK_ENTRY_SIZE));
-}
+#include "shape/bank_file_test.h"
 
 TEST(bank_file, crc_is_the_one_of_zip)
 {
@@ -88,7 +18,7 @@ TEST(bank_file, crc_is_the_one_of_zip)
 
 TEST(bank_file, what_was_written_is_what_is_read)
 {
-    fap_bytes file = builtin_file();
+    fap_bytes file = test_bank_file(0);
     fap_bank *a, *b;
 
     assert_int_equal(fap_bank_builtin(&a, NULL), FAP_OK);
@@ -119,7 +49,7 @@ TEST(bank_file, what_was_written_is_what_is_read)
 
 TEST(bank_file, points_move_with_their_vertices)
 {
-    fap_bytes file = builtin_file();
+    fap_bytes file = test_bank_file(0);
     fap_bank *bank;
 
     assert_int_equal(fap_bank_load(&bank, file.data, file.size, NULL), FAP_OK);
@@ -139,23 +69,24 @@ TEST(bank_file, points_move_with_their_vertices)
 
 TEST(bank_file, cut_anywhere_is_refused)
 {
-    fap_bytes file = builtin_file();
+    fap_bytes file = test_bank_file(0);
 
     for (size_t size = 0; size < file.size; size += size < 1024 ? 1 : 997)
-        assert_int_not_equal(load_result(file.data, size), FAP_OK);
-    assert_int_equal(load_result(file.data, file.size), FAP_OK);
+        assert_int_not_equal(test_bank_load(file.data, size), FAP_OK);
+    assert_int_equal(test_bank_load(file.data, file.size), FAP_OK);
     fap_bytes_free(&file);
 }
 
 TEST(bank_file, one_wrong_bit_is_noticed)
 {
-    fap_bytes file = builtin_file();
-    const size_t data_end = get32(entry_of(&file, "KPNT") + 4) + get32(entry_of(&file, "KPNT") + 8);
+    fap_bytes file = test_bank_file(0);
+    const size_t data_end =
+        test_get32(test_bank_entry(&file, "KPNT") + 4) + test_get32(test_bank_entry(&file, "KPNT") + 8);
 
-    for (size_t at = get32(entry_of(&file, "VPOS") + 4); at < data_end; at += 1009) {
+    for (size_t at = test_get32(test_bank_entry(&file, "VPOS") + 4); at < data_end; at += 1009) {
         const size_t in_padding = at % FBANK_ALIGN; /* zeros between chunks are not covered by a checksum */
         file.data[at] ^= 1;
-        const fap_err err = load_result(file.data, file.size);
+        const fap_err err = test_bank_load(file.data, file.size);
         file.data[at] ^= 1;
         assert_true(err == FAP_E_DATA || in_padding);
     }
@@ -164,16 +95,16 @@ TEST(bank_file, one_wrong_bit_is_noticed)
 
 TEST(bank_file, other_formats_and_versions_are_told_apart)
 {
-    fap_bytes file = builtin_file();
+    fap_bytes file = test_bank_file(0);
 
-    assert_int_equal(load_result((const uint8_t *)"# not a bank at all, just text", 30),
+    assert_int_equal(test_bank_load((const uint8_t *)"# not a bank at all, just text", 30),
                      FAP_E_UNKNOWN_FORMAT);
-    assert_int_equal(load_result(NULL, 0), FAP_E_UNKNOWN_FORMAT);
+    assert_int_equal(test_bank_load(NULL, 0), FAP_E_UNKNOWN_FORMAT);
     file.data[8] = FBANK_MAJOR + 1;
-    assert_int_equal(load_result(file.data, file.size), FAP_E_UNSUPPORTED);
+    assert_int_equal(test_bank_load(file.data, file.size), FAP_E_UNSUPPORTED);
     file.data[8] = FBANK_MAJOR;
     file.data[10] = 9; /* a later minor version is welcome */
-    assert_int_equal(load_result(file.data, file.size), FAP_OK);
+    assert_int_equal(test_bank_load(file.data, file.size), FAP_OK);
     fap_bytes_free(&file);
 }
 
@@ -197,10 +128,10 @@ static const struct damage {
 TEST(bank_file, bad_values_behind_good_checksums_are_refused)
 {
     for (size_t i = 0; i < sizeof damages / sizeof *damages; i++) {
-        fap_bytes file = builtin_file();
-        put32(chunk_of(&file, damages[i].tag) + damages[i].offset, damages[i].value);
-        seal(&file);
-        const fap_err err = load_result(file.data, file.size);
+        fap_bytes file = test_bank_file(0);
+        test_put32(test_bank_chunk(&file, damages[i].tag) + damages[i].offset, damages[i].value);
+        test_bank_seal(&file);
+        const fap_err err = test_bank_load(file.data, file.size);
         if (err != FAP_E_DATA && err != FAP_E_LIMIT)
             fail_msg("%s + %u: %d", damages[i].tag, damages[i].offset, err);
         fap_bytes_free(&file);
@@ -215,16 +146,16 @@ TEST(bank_file, bad_tables_are_refused)
     } bad[] = { { 4, 0xffffffe0 }, { 4, 1 }, { 4, 0 }, { 8, 0xffffffff } };
 
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        fap_bytes file = builtin_file();
-        put32(entry_of(&file, "VPRT") + bad[i].field, bad[i].value);
-        seal(&file);
-        assert_int_equal(load_result(file.data, file.size), FAP_E_DATA);
+        fap_bytes file = test_bank_file(0);
+        test_put32(test_bank_entry(&file, "VPRT") + bad[i].field, bad[i].value);
+        test_bank_seal(&file);
+        assert_int_equal(test_bank_load(file.data, file.size), FAP_E_DATA);
         fap_bytes_free(&file);
     }
-    fap_bytes file = builtin_file();
-    memcpy(entry_of(&file, "VHDW"), "VPRT", 4); /* twice the same chunk */
-    seal(&file);
-    assert_int_equal(load_result(file.data, file.size), FAP_E_DATA);
+    fap_bytes file = test_bank_file(0);
+    memcpy(test_bank_entry(&file, "VHDW"), "VPRT", 4); /* twice the same chunk */
+    test_bank_seal(&file);
+    assert_int_equal(test_bank_load(file.data, file.size), FAP_E_DATA);
     fap_bytes_free(&file);
 }
 
@@ -250,7 +181,7 @@ static size_t read_drip(void *user, void *buf, size_t size)
 
 TEST(bank_file, is_read_through_callbacks)
 {
-    fap_bytes file = builtin_file();
+    fap_bytes file = test_bank_file(0);
     drip whole = { &file, 0, SIZE_MAX }, broken = { &file, 0, 5000 };
     fap_bank *bank;
 
@@ -275,7 +206,7 @@ static void give_back(void *user, void *ptr)
 
 TEST(bank_file, survives_a_failing_allocator)
 {
-    fap_bytes file = builtin_file();
+    fap_bytes file = test_bank_file(0);
     fap_err err = FAP_E_NOMEM;
 
     for (int allowed = 0; err == FAP_E_NOMEM; allowed++) {
@@ -340,7 +271,7 @@ TEST(bank_builder, refuses_bad_keys_and_points)
     assert_int_equal(fap_bank_builder_key(b, FAP_KEY_UNIT, 0, "x", bad), FAP_E_DATA);
     assert_int_equal(fap_bank_builder_key(b, FAP_KEY_UNIT, 0, "x", corners), FAP_OK);
     fap_bytes file = { 0 };
-    assert_int_equal(fap_bank_builder_write(b, &(fap_writer){ take, &file }),
+    assert_int_equal(fap_bank_builder_write(b, &(fap_writer){ test_bank_take, &file }),
                      FAP_E_DATA); /* no FAPU without points */
     fap_bytes_free(&file);
     fap_bank_builder_close(&b);

@@ -39,6 +39,28 @@ expect 2 "$B/fapbank" fat builtin
 expect 1 "$B/fapbank" fat tests/cli/fapbank.sh -o "$T/keep.fbank"
 [ "$(cat "$T/keep.fbank")" = keep ] || fail "a failed fat changed its output"
 
+# Masks, region map and principal components.
+expect 0 "$B/fapbank" info "$T/a.fbank"
+says 'masks +lip_upper [1-9].* lid_lower_right [1-9]'
+says 'region map +borders'
+says 'components +none'
+expect 0 "$B/fapbank" pca "$T/a.fbank" -o "$T/pca.fbank" --components=8
+says '8 components of 32 models, [0-9.]+ % of the variance'
+expect 0 "$B/fapbank" pca builtin --components=8 -q -o "$T/pca2.fbank"
+expect 0 "$B/fapbank" info "$T/pca.fbank"
+says 'component +8 +sigma'
+expect 0 "$B/fapbank" info --json "$T/pca.fbank"
+python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); c = [x["cumulative"] for x in j["components"]]
+assert len(c) == 8 and c == sorted(c) and 0.8 < c[-1] <= 1 and all(n > 0 for n in j["masks"].values()), c
+assert j["regions"]["width_mm"] > 100' "$T/out" || fail "components are not told"
+expect 0 "$B/fapbank" pca --json "$T/a.fbank" -o "$T/pca3.fbank" --components=8
+cmp "$T/pca.fbank" "$T/pca3.fbank" || fail "two analyses of the same bank differ"
+expect 1 "$B/fapbank" pca tests/cli/fapbank.sh -o "$T/keep.fbank"
+[ "$(cat "$T/keep.fbank")" = keep ] || fail "a failed pca changed its output"
+expect 2 "$B/fapbank" pca builtin
+expect 2 "$B/fapbank" pca builtin -o "$T/x" --components=0
+expect 2 "$B/fapbank" pca builtin -o "$T/x" --components=129
+
 # A text recipe: two triangles that happen to have a face's measures.
 cat >"$T/face.obj" <<'O'
 v 3.1 .5 0
@@ -104,3 +126,7 @@ status=0
 [ "$status" -eq 3 ] && skip "no OpenGL here: $(cat "$T/err")"
 [ "$status" -eq 0 ] || fail "render gives $status"
 [ "$(head -c 4 "$T/sheet.png" | tail -c 3)" = PNG ] || fail "the sheet is no PNG"
+for what in masks regions; do
+    expect 0 "$B/fapbank" render builtin -o "$T/$what.png" --tile 64 --$what
+    ! cmp -s "$T/sheet.png" "$T/$what.png" || fail "--$what paints nothing"
+done

@@ -69,6 +69,42 @@ static long touch_mesh(const fap_bank *bank)
     return sum;
 }
 
+static long touch_component(const fap_bank *bank, const fap_component *c)
+{
+    const fap_mesh *m = fap_bank_mesh(bank);
+    long sum = c->point_mm[FAP_POINT_COUNT - 1][2] > 0;
+
+    for (uint32_t b = 0; b < c->block_count; b++)
+        sum += c->delta[b * 3 * FAP_BLOCK + 23] + m->part[c->block[b] * FAP_BLOCK + 7];
+    return sum;
+}
+
+static long touch_basis(const fap_bank *bank)
+{
+    const fap_basis *basis = fap_bank_basis(bank);
+    long sum = basis ? touch_component(bank, &basis->mean) : 0;
+
+    for (int i = 0; basis && i < basis->component_count; i++) {
+        sum += touch_component(bank, &basis->component[i]);
+        sum += basis->component[i].mix[basis->model_count - 1] > 0;
+    }
+    for (int i = 1; basis && i < basis->model_count; i++)
+        sum += fap_bank_key_get(bank, (int)basis->model[i])->name[0];
+    return sum;
+}
+
+static long touch_maps(const fap_bank *bank)
+{
+    const uint32_t stride = fap_bank_mesh(bank)->stride;
+    long sum = 0;
+
+    if (fap_bank_masks(bank))
+        sum += fap_bank_masks(bank)[stride - 1];
+    if (fap_bank_regions(bank))
+        sum += fap_bank_regions(bank)->from[2 * stride - 1] > 0;
+    return sum;
+}
+
 /* Loads, looks, closes with the memory there is. */
 static fap_err load(const uint8_t *data, size_t size, fuzz_memory *m)
 {
@@ -80,7 +116,7 @@ static fap_err load(const uint8_t *data, size_t size, fuzz_memory *m)
     if ((err == FAP_OK) != (bank != NULL))
         abort();
     if (bank)
-        sink += touch_keys(bank) + touch_mesh(bank);
+        sink += touch_keys(bank) + touch_mesh(bank) + touch_maps(bank) + touch_basis(bank);
     (void)sink;
     fap_bank_close(&bank);
     fuzz_memory_check(m);

@@ -32,7 +32,8 @@ typedef struct fap_build_mesh {
  */
 FAP_API FAP_NODISCARD fap_err fap_bank_builder_open(fap_bank_builder **out, const char *name,
                                                     const fap_build_mesh *mesh);
-/** Start from a bank that is there: its mesh, points, eyes and keys, to be changed or written. @return as above */
+/** Start from a bank that is there: its mesh, points, eyes, keys, masks and region map (not
+ * its principal components, which other keys would make wrong), to be changed or written. @return as above */
 FAP_API FAP_NODISCARD fap_err fap_bank_builder_copy(fap_bank_builder **out, const fap_bank *bank);
 /** Sets @p *b to NULL; accepts NULL. */
 FAP_API void fap_bank_builder_close(fap_bank_builder **b);
@@ -60,6 +61,25 @@ FAP_API FAP_NODISCARD fap_err fap_bank_builder_key(fap_bank_builder *b, fap_key_
  * from the units added so far. Units a face has not got are left out of a blend.
  */
 FAP_API FAP_NODISCARD fap_err fap_bank_builder_models(fap_bank_builder *b);
+
+/** Other colours for the mesh. @param colour  [vertex_count] */
+FAP_API void fap_bank_builder_colours(fap_bank_builder *b, const uint8_t (*colour)[4]);
+/**
+ * An artist's own discontinuity masks instead of those that write derives. @param mask  [vertex_count] of
+ * ::fap_mask bits. @return FAP_OK, FAP_E_ARG, FAP_E_NOMEM
+ */
+FAP_API FAP_NODISCARD fap_err fap_bank_builder_masks(fap_bank_builder *b, const uint8_t *mask);
+/**
+ * An own region map instead of the one that write derives. @param stride  of @p lines->from; at least vertex_count
+ * @return FAP_OK, FAP_E_NOMEM; numbers that are none make fap_bank_load() refuse the file
+ */
+FAP_API FAP_NODISCARD fap_err fap_bank_builder_regions(fap_bank_builder *b, const fap_region_lines *lines,
+                                                       uint32_t stride);
+/**
+ * Have write add principal components of the population (visemes, expressions, extras; all keys where a face has none
+ * of these). @param components  at most, 1 to 128; 0: none. @return FAP_OK, FAP_E_ARG
+ */
+FAP_API FAP_NODISCARD fap_err fap_bank_builder_basis(fap_bank_builder *b, int components);
 
 /**
  * Write the file. Vertices are reordered so that those that move together stand together.
