@@ -12,6 +12,7 @@ Q       := $(if $(V),,@)
 HOSTCC  ?= cc
 PKG     ?= pkg-config
 CFLAGS  ?= $(if $(filter asan,$(config)),-O1 -g,-O2 -g)
+CXXFLAGS ?= $(CFLAGS)
 
 SAN        := $(if $(filter asan,$(config)),-fsanitize=address -fsanitize=undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
 # No fused multiply-add: the same bits on every machine. Nobody asks errno or traps about a square root: loops with one can be
@@ -19,6 +20,10 @@ SAN        := $(if $(filter asan,$(config)),-fsanitize=address -fsanitize=undefi
 FAP_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wvla -ffp-contract=off \
               -fno-math-errno -fno-trapping-math \
               -fPIC -fvisibility=hidden -Iinclude -Ilib -I. -I$(B) -MMD -MP $(if $(WERROR),-Werror) $(SAN)
+
+# Dear ImGui is C++, and one file of ours speaks to it.
+FAP_CXXFLAGS := -std=c++17 -Wall -Wextra -Wshadow -fno-exceptions -fno-rtti -fPIC -fvisibility=hidden -Iinclude -I. -MMD -MP \
+                $(if $(WERROR),-Werror) $(SAN)
 
 has = $(shell $(PKG) --exists $(1) 2>/dev/null && echo 1)
 
@@ -30,6 +35,8 @@ GL      := $(OSMESA)$(EGL)
 PNG     := $(call has,libpng)
 SNDFILE := $(call has,sndfile)
 SDL2    := $(call has,sdl2)
+GLFW    := $(call has,glfw3)
+IMGUI   := $(if $(GLFW),$(if $(shell command -v $(CXX)),$(call has,imgui)))
 JPEG    := $(call has,libjpeg)
 ZLIB    := $(call has,zlib)
 CMOCKA  := $(call has,cmocka)
@@ -51,15 +58,17 @@ obj       = $(patsubst %.c,$(B)/%.o,$(1))
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
 RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
-PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2)
+PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2) $(if $(IMGUI),$(shell $(PKG) --libs imgui)) $(if $(GLFW),-lglfw) $(if $(IMGUI),-lstdc++)
 DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHAVE_EGL) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \
-            $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2)
+            $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2) $(if $(GLFW),-DHAVE_GLFW) $(if $(IMGUI),-DHAVE_IMGUI)
 
 TOOLS    := $(B)/fapenc $(B)/fapplay $(B)/fapbank
 LIBS     := $(B)/libfap.a $(B)/libfap-studio.a $(B)/libfap.so.$(VERSION)
 
 # Headers of libraries are not ours to warn about, and one driver file each includes them.
-$(B)/player/audio/device_sdl.o: FAP_CFLAGS += $(if $(SDL2),$(patsubst -I%,-isystem %,$(shell $(PKG) --cflags sdl2)))
+system_cflags = $(patsubst -I%,-isystem %,$(shell $(PKG) --cflags $(1)))
+$(B)/player/audio/device_sdl.o: FAP_CFLAGS += $(if $(SDL2),$(call system_cflags,sdl2))
+$(B)/player/window/panel_imgui.o: FAP_CXXFLAGS += $(if $(IMGUI),$(call system_cflags,imgui))
 
 COMPILE   = mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(DEFS) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 LINK      = mkdir -p $(@D) && $(CC) $(SAN) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o %.a,$^)
@@ -76,6 +85,10 @@ $(B)/gen/%.h: fap_tables/%.csv $(B)/gen/csv2c
 $(B)/%.o: %.c | $(GEN)
 	$(call SAY,CC)
 	$(Q)$(COMPILE)
+
+$(B)/%.o: %.cpp | $(GEN)
+	$(call SAY,CXX)
+	$(Q)mkdir -p $(@D) && $(CXX) $(FAP_CXXFLAGS) $(DEFS) $(CPPFLAGS) $(CXXFLAGS) -c -o $@ $<
 
 # --- libraries -----------------------------------------------------------------------------------------------------
 $(B)/libfap.a: $(call obj,$(LIB_SRC))
@@ -96,7 +109,7 @@ $(B)/libfap-enc.a: $(call obj,$(filter-out encoder/main.c,$(ENC_SRC)))
 $(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(SOUND_LIBS) $(STUDIO_LIBS) $(if $(PNG),-lpng) -lm
-$(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC)))
+$(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC))) $(if $(IMGUI),$(B)/player/window/panel_imgui.o)
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm

@@ -13,7 +13,15 @@
 #include "common/tool.h"
 #include "player/options.h"
 
-enum { DEFAULT_SIZE = 720, DEFAULT_SHEET_SIZE = 320, MAX_RATE_HZ = 1000, MAX_GENERATIONS = 100000 };
+enum {
+    DEFAULT_SIZE = 720,
+    WINDOW_WIDTH = 1120,
+    WINDOW_HEIGHT = 780,
+    DEFAULT_SHEET_SIZE = 320,
+    MAX_RATE_HZ = 1000,
+    MAX_GENERATIONS = 100000,
+    MAX_OFFSET_MS = 60000
+};
 
 /* --- numbers and names --- */
 
@@ -249,6 +257,32 @@ static int set_tolerance(play_options *o, const char *text)
     return small_integer(text, 0, 255, &o->tolerance);
 }
 
+static int set_audio_offset(play_options *o, const char *text)
+{
+    return real_number(text, -MAX_OFFSET_MS, MAX_OFFSET_MS, &o->audio_offset_ms);
+}
+
+static int set_loop(play_options *o, const char *text)
+{
+    (void)text;
+    o->loop = 1;
+    return 1;
+}
+
+static int set_paused(play_options *o, const char *text)
+{
+    (void)text;
+    o->paused = 1;
+    return 1;
+}
+
+static int set_fullscreen(play_options *o, const char *text)
+{
+    (void)text;
+    o->fullscreen = 1;
+    return 1;
+}
+
 static int set_json(play_options *o, const char *text)
 {
     (void)text;
@@ -293,6 +327,10 @@ static const option_row rows[] = {
     { "golden", set_golden, "a folder" },
     { "update", set_update, NULL },
     { "tolerance", set_tolerance, "a number from 0 to 255" },
+    { "audio-offset", set_audio_offset, "milliseconds, from -60000 to 60000" },
+    { "loop", set_loop, NULL },
+    { "paused", set_paused, NULL },
+    { "fullscreen", set_fullscreen, NULL },
     { "json", set_json, NULL },
     { "quiet", set_quiet, NULL },
 };
@@ -307,11 +345,20 @@ enum {
 /* --- help --- */
 
 static const char help_text[] =
-    "usage: fapplay STREAM -o OUT [options]\n"
+    "usage: fapplay STREAM [options]            in a window\n"
+    "       fapplay STREAM -o OUT [options]     without one\n"
     "Shows a stream of MPEG-4 face animation parameters on a face. STREAM is .fap or .fba, or - for standard "
     "input.\n"
     "\n"
-    "Where to (-o, --output OUT):\n"
+    "The window: space plays and pauses, arrows step, ? shows all keys; the mouse turns (left), moves "
+    "(right) and "
+    "zooms\n"
+    "(wheel); .fap, .fba, .fbank and sounds may be dropped on it.\n"
+    "  --audio F                sound, which is the time\n"
+    "  --audio-offset MS        the sound begins that much after the stream; negative: before (0)\n"
+    "  --loop, --paused, --fullscreen    how it begins\n"
+    "\n"
+    "Where to instead (-o, --output OUT):\n"
     "  NAME.png                 one picture: frame A of --frames, else the middle one\n"
     "  NAME_%04d.png            a picture of every frame\n"
     "  NAME.mp4, .webm, .mkv    a film (needs the program ffmpeg; mkv is lossless)\n"
@@ -343,7 +390,9 @@ static const char help_text[] =
     "  --blink                  blink now and then while the stream does not move the lids\n"
     "\n"
     "Pictures and time:\n"
-    "  --size WxH               pixels (720x720; pictures of a sheet 320x320); even for films\n"
+    "  --size WxH               pixels (720x720; of a sheet's pictures 320x320, of the window 1120x780); "
+    "even for "
+    "films\n"
     "  --camera C               front, left, right or three-quarter (front)\n"
     "  --gl osmesa|egl          OpenGL without a window by this library (the first that works)\n"
     "  --fps R                  frames a second (as the stream)\n"
@@ -359,6 +408,7 @@ static const char help_text[] =
     "program.\n"
     "\n"
     "Examples:\n"
+    "  fapplay hello.fap --audio hello.wav\n"
     "  fapplay hello.fap --audio hello.wav -o hello.mp4\n"
     "  fapplay hello.fap --frames 40: --camera three-quarter -o frame40.png\n"
     "  fapplay hello.fap --sheet 12 -o sheet.png\n"
@@ -430,7 +480,7 @@ static int take_options(play_options *o, int argc, char **argv)
 static int take_stream(play_options *o, int argc, char **argv)
 {
     if (optind >= argc)
-        return refuse("no stream:", "fapplay STREAM -o OUT");
+        return refuse("no stream:", "fapplay STREAM");
     if (optind + 1 < argc)
         return refuse("one stream only, not also", argv[optind + 1]);
     o->stream = argv[optind];
@@ -444,18 +494,33 @@ static int no_such_output(const play_options *o)
     return 0;
 }
 
+/* What a window has no use for would be a misunderstanding. */
+static int check_window(const play_options *o)
+{
+    if (o->has_range)
+        return refuse("--frames needs", "-o OUT");
+    return o->gl ? refuse("--gl needs", "-o OUT") : 1;
+}
+
+/* And what only a window has a use for. */
+static int check_offscreen(const play_options *o)
+{
+    if (o->loop || o->paused || o->fullscreen || o->audio_offset_ms != 0)
+        return refuse("--loop, --paused, --fullscreen and --audio-offset are the window's, not of",
+                      o->output ? o->output : o->golden);
+    if (o->audio && o->sink != &sink_video)
+        return refuse("--audio needs a film, not", o->output ? o->output : o->golden);
+    return 1;
+}
+
 static int choose_sink(play_options *o)
 {
     if (o->golden && o->moments)
         return refuse("either --golden or", "--sheet");
     if (o->update && !o->golden)
         return refuse("--update needs", "--golden DIR");
-    if (!o->golden && !o->output) {
-        tool_error("the window arrives with a later version; for now say where to with -o: NAME.png, "
-                   "NAME_%%04d.png, "
-                   "NAME.mp4, NAME.webm, NAME.mkv, NAME.csv or null");
-        return 0;
-    }
+    if (!o->golden && !o->output)
+        return o->moments ? refuse("--sheet needs", "-o NAME.png") : check_window(o);
     o->sink = o->golden ? &sink_golden : sink_by_name(o->output);
     if (o->moments && o->sink != &sink_png && strcmp(o->output, "-"))
         return refuse("--sheet needs -o NAME.png, not", o->output);
@@ -468,6 +533,10 @@ static int check_sizes(play_options *o)
 {
     const int side = o->sink == &sink_sheet ? DEFAULT_SHEET_SIZE : DEFAULT_SIZE;
 
+    if (!o->width && !o->sink) {
+        o->width = WINDOW_WIDTH;
+        o->height = WINDOW_HEIGHT;
+    }
     if (!o->width)
         o->width = o->height = side;
     if (o->sink == &sink_video && (o->width % 2 || o->height % 2)) {
@@ -481,8 +550,8 @@ static int check(play_options *o)
 {
     if (!choose_sink(o) || !check_sizes(o))
         return 0;
-    if (o->audio && o->sink != &sink_video)
-        return refuse("--audio needs a film, not", o->output ? o->output : o->golden);
+    if (o->sink && !check_offscreen(o))
+        return 0;
     if (o->json && o->output && !strcmp(o->output, "-"))
         return refuse("--json and -o - both want standard output:", "name a file");
     return 1;

@@ -17,7 +17,7 @@ typedef struct play_options {
     const char *bank;   /* NULL: find the default face; "builtin" */
     const char *fit;    /* NULL: the one beside the stream, if any */
     const char *output, *golden, *audio;
-    const play_sink *sink;
+    const play_sink *sink; /* NULL: the window */
     fap_face_config face;
     const char *gl; /* how to draw without a window; NULL: what works */
     render_camera camera;
@@ -27,6 +27,8 @@ typedef struct play_options {
     int64_t from, to; /* to is INT64_MAX where it was left open */
     int moments;      /* --sheet; 0: none */
     int update, tolerance;
+    double audio_offset_ms;       /* of the window: how much later the sound begins than the stream */
+    int loop, paused, fullscreen; /* how the window begins */
     int json, quiet;
     int exit_status; /* when parsing says not to run */
 } play_options;

@@ -54,6 +54,19 @@ TEST(play_options, defaults_are_those_of_the_help)
     assert_false(o.has_range);
 }
 
+TEST(play_options, without_output_there_is_a_window)
+{
+    play_options o;
+
+    takes(&o, "a.fap --audio a.wav --audio-offset -40 --loop --paused --camera left --blend rbf");
+    assert_null(o.sink);
+    assert_float_equal(o.audio_offset_ms, -40, 0);
+    assert_true(o.loop && o.paused && !o.fullscreen);
+    assert_int_equal(o.width, 1120);
+    takes(&o, "a.fap --size 640x480");
+    assert_int_equal(o.height, 480);
+}
+
 TEST(play_options, every_option_of_the_face_arrives)
 {
     play_options o;
@@ -195,7 +208,13 @@ TEST(play_options, wrong_values_are_refused)
 TEST(play_options, wrong_combinations_are_refused)
 {
     refuses("");
-    refuses("a.fap");
+    refuses("a.fap --frames 1:2");
+    refuses("a.fap --gl egl");
+    refuses("a.fap -o a.png --loop");
+    refuses("a.fap -o a.png --paused");
+    refuses("a.fap -o a.mp4 --audio a.wav --audio-offset 20");
+    refuses("a.fap --audio-offset 60001");
+    refuses("a.fap --audio-offset nan");
     refuses("-o a.png");
     refuses("a.fap b.fap -o a.png");
     refuses("a.fap -o a.gif");

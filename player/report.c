@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include <fap/tables.h>
+
 #include "common/json.h"
 #include "common/tool.h"
 #include "player/report.h"
@@ -28,6 +30,49 @@ static void put_golden(json *j, const sink_result *result)
     json_close(j, '}');
 }
 
+static void put_view(json *j, const session *s)
+{
+    json_open(j, "view", '{');
+    json_string(j, "camera", s->camera >= 0 ? render_camera_name((render_camera)s->camera) : "free");
+    json_number(j, "yaw_degrees", s->view.yaw_degrees);
+    json_number(j, "pitch_degrees", s->view.pitch_degrees);
+    json_number(j, "distance", s->view.distance);
+    json_close(j, '}');
+}
+
+static void put_session(json *j, const session *s)
+{
+    json_bool(j, "playing", s->playing);
+    json_number(j, "position_s", (double)s->at_us * 1e-6);
+    json_integer(j, "frame", session_frame(s));
+    json_integer(j, "frame_count", s->frame_count);
+    json_number(j, "speed", s->speed);
+    json_bool(j, "loop", s->loop);
+    json_integer(j, "loops", s->loops);
+    json_integer(j, "late_frames", s->late_frames);
+    json_string(j, "blend", fap_blend_name((int)s->blend));
+    json_string(j, "expression", fap_expression_name(s->expression));
+    json_bool(j, "wireframe", s->wireframe);
+    json_bool(j, "points", s->points);
+    json_bool(j, "bars", s->bars);
+    json_bool(j, "panels", s->panels);
+    json_bool(j, "fullscreen", s->fullscreen);
+    put_view(j, s);
+}
+
+static void put_window(json *j, const window_report *w)
+{
+    json_open(j, "window", '{');
+    json_string(j, "clock", w->clock);
+    json_number(j, "av_offset_ms", w->av_offset_ms);
+    json_number(j, "av_offset_mean_ms", w->av_offset_mean_ms);
+    json_integer(j, "screenshots", w->screenshot_count);
+    if (w->screenshot_count)
+        json_string(j, "screenshot", w->screenshot);
+    put_session(j, &w->session);
+    json_close(j, '}');
+}
+
 static void put_notes(json *j, const play_report *r)
 {
     json_open(j, "notes", '[');
@@ -45,7 +90,7 @@ static void put_json(const play_report *r, const play_options *o)
     json_bool(&j, "ok", r->fault.exit_status == EXIT_OK);
     if (r->fault.exit_status != EXIT_OK)
         json_string(&j, "error", r->fault.text);
-    json_string(&j, "sink", o->sink->name);
+    json_string(&j, "sink", o->sink ? o->sink->name : "window");
     if (o->output)
         json_string(&j, "output", o->output);
     json_string(&j, "face", r->face);
@@ -62,12 +107,16 @@ static void put_json(const play_report *r, const play_options *o)
     json_number(&j, "worst_error_mm", r->residual_mm);
     if (o->golden)
         put_golden(&j, &r->result);
+    if (!o->sink && r->window.session.frame_count)
+        put_window(&j, &r->window);
     put_notes(&j, r);
     json_close(&j, '}');
 }
 
 static void say_success(const play_report *r, const play_options *o)
 {
+    if (!o->sink)
+        return; /* a window speaks for itself */
     if (o->golden && o->update)
         tool_note("%s: %" PRId64 " pictures written", o->golden, r->result.updated);
     else if (o->golden)

@@ -7,8 +7,18 @@
 
 #include "player/fault.h"
 #include "player/options.h"
+#include "player/window/session.h"
 
 enum { REPORT_MAX_NOTES = 32, REPORT_TEXT_SIZE = 256 };
+
+/* What a window did. */
+typedef struct window_report {
+    char clock[16];                         /* "sound" or "monotonic" */
+    double av_offset_ms, av_offset_mean_ms; /* between clock and picture as it was seen, at speed 1 */
+    session session;                        /* as it was left */
+    int screenshot_count;
+    char screenshot[REPORT_TEXT_SIZE]; /* the last one */
+} window_report;
 
 typedef struct play_report {
     fault fault;
@@ -20,6 +30,7 @@ typedef struct play_report {
     double stream_rate_hz, stream_s, rate_hz, sound_s;
     double error_mm, residual_mm; /* largest RMS of a shown frame: before, after the residual */
     sink_result result;
+    window_report window; /* where o->sink is NULL */
 } play_report;
 
 void play_report_note(play_report *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

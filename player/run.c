@@ -11,6 +11,7 @@
 #include "player/render/renderer.h"
 #include "player/run.h"
 #include "player/scene.h"
+#include "player/window/window.h"
 
 typedef struct player {
     const play_options *opt;
@@ -184,6 +185,10 @@ void play_run(const play_options *o, play_report *r)
 {
     player p = { .opt = o, .report = r };
 
+    if (!o->sink) {
+        window_run(o, r);
+        return;
+    }
     if (load_scene(&p) && check_sound(&p) && make_plan(&p) && open_renderer(&p) && open_sink(&p) &&
         show_all(&p))
         o->sink->finish(p.sink_state, &r->result, &r->fault);

@@ -43,6 +43,19 @@ static int find_fit(fap_fit **fit, const char *path, const char *fit_path, int r
     return 1;
 }
 
+static void find_farthest(scene *s)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++) {
+        s->farthest[fap] = 0;
+        for (size_t i = 0; i < s->line.count; i++) {
+            const int64_t value = s->line.frame[i].value[fap];
+            const int64_t far = value < 0 ? -value : value;
+            if (far > s->farthest[fap])
+                s->farthest[fap] = far < INT32_MAX ? (int32_t)far : INT32_MAX;
+        }
+    }
+}
+
 static int read_timeline(scene *s, const char *path, const uint8_t *data, size_t size, play_report *r)
 {
     char where[FAP_ERROR_TEXT_SIZE] = "";
@@ -54,6 +67,7 @@ static int read_timeline(scene *s, const char *path, const uint8_t *data, size_t
         return fault_set(&r->fault, EXIT_DATA, "%s: %s", path, where[0] ? where : fap_strerror(err));
     note_deviations(path, &summary, where, r);
     s->kbit_s = (double)size * 8e3 / (double)s->line.end_us;
+    find_farthest(s);
     r->stream_frames = (int64_t)summary.frames;
     r->stream_rate_hz = s->line.rate_hz;
     r->stream_s = (double)s->line.end_us * 1e-6;

@@ -9,7 +9,8 @@
 
 typedef struct scene {
     timeline line;
-    double kbit_s; /* of the stream as it was read, on average */
+    double kbit_s;                   /* of the stream as it was read, on average */
+    int32_t farthest[FAP_COUNT + 1]; /* that a FAP goes from 0 */
     fap_fit *fit;
     fap_bank *bank;
     fap_face *face;

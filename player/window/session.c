@@ -197,6 +197,7 @@ void session_act(session *s, play_event e)
     case PLAY_BLEND: set_blend(s, e.value); break;
     case PLAY_NEXT_BLEND: next_blend(s); break;
     case PLAY_EXPRESSION: set_expression(s, e.value); break;
+    case PLAY_FULLSCREEN: s->fullscreen = !s->fullscreen; break;
     case PLAY_SCREENSHOT: s->screenshots++; break;
     case PLAY_QUIT: leave(s); break;
     case PLAY_NOTHING:

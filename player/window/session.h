@@ -38,6 +38,7 @@ typedef enum play_action {
     PLAY_BLEND,      /* value: a fap_blend */
     PLAY_NEXT_BLEND, /* the order of keys: ga qp zhu pca rbf fat */
     PLAY_EXPRESSION, /* value: of FAP 2, 1 joy to 6 surprise; 0, or the one that is shown: none */
+    PLAY_FULLSCREEN,
     PLAY_SCREENSHOT,
     PLAY_QUIT, /* closes the help first */
     PLAY_ACTION_COUNT
@@ -58,7 +59,7 @@ typedef struct session {
     int64_t at_us; /* what is shown, 0 to length_us */
     render_view view;
     int camera; /* the fixed view that @view is; -1: none any more */
-    int wireframe, points, bars, panels, help;
+    int wireframe, points, bars, panels, help, fullscreen;
     fap_blend blend;
     int expression; /* 0: the stream's */
 

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* Streams, faces and sounds that are exchanged while something plays; on the built-in face, without a window. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "player/window/playback.h"
+#include "tests/test.h"
+
+static char stream[] = "tests/golden/blink/stream.fap";
+
+typedef struct stage {
+    play_options opt;
+    play_report report;
+    playback p;
+} stage;
+
+static void open_stage(stage *t)
+{
+    setenv("SDL_AUDIODRIVER", "dummy", 1);
+    *t = (stage){ .opt = { .stream = stream, .bank = "builtin", .paused = 1 } };
+    fap_face_config_init(&t->opt.face);
+    t->opt.face.blend = FAP_BLEND_QP;
+    assert_true(playback_open(&t->p, &t->opt, &t->report));
+}
+
+static void close_stage(stage *t)
+{
+    playback_close(&t->p);
+    assert_int_equal(t->report.fault.exit_status, 0);
+}
+
+static void drop(stage *t, const char *path)
+{
+    playback_drop(&t->p, 1, &path);
+}
+
+TEST(playback, poses_once_until_something_changes)
+{
+    stage t;
+
+    open_stage(&t);
+    assert_true(playback_advance(&t.p));
+    assert_false(playback_advance(&t.p));
+    session_act(&t.p.session, (play_event){ PLAY_STEP, 1, 0 });
+    assert_true(playback_advance(&t.p));
+    session_act(&t.p.session, (play_event){ PLAY_EXPRESSION, 1, 0 });
+    assert_true(playback_advance(&t.p));
+    assert_int_equal(t.p.scene.frame.expression.select1, 1);
+    assert_false(playback_advance(&t.p));
+    close_stage(&t);
+    assert_int_equal(t.report.shown_frames, 3);
+    assert_int_equal(session_frame(&t.report.window.session), 1);
+}
+
+TEST(playback, begins_when_the_first_picture_is_seen)
+{
+    stage t;
+
+    open_stage(&t);
+    t.p.starts = 1;
+    playback_advance(&t.p);
+    assert_false(t.p.session.playing);
+    playback_seen(&t.p);
+    assert_true(t.p.session.playing);
+    close_stage(&t);
+}
+
+TEST(playback, another_method_poses_the_same_moment)
+{
+    stage t;
+
+    open_stage(&t);
+    playback_advance(&t.p);
+    session_act(&t.p.session, (play_event){ PLAY_BLEND, FAP_BLEND_RBF, 0 });
+    assert_true(playback_advance(&t.p));
+    assert_int_equal(t.p.face.blend, FAP_BLEND_RBF);
+    assert_false(playback_advance(&t.p));
+    close_stage(&t);
+}
+
+TEST(playback, takes_another_stream_and_keeps_the_old_one_when_that_is_none)
+{
+    stage t;
+
+    open_stage(&t);
+    drop(&t, "tests/golden/smile/stream.fap");
+    assert_string_equal(t.p.stream, "tests/golden/smile/stream.fap");
+    const int64_t frames = t.p.session.frame_count;
+    drop(&t, "tests/no-such.fap");
+    assert_non_null(strstr(playback_message(&t.p), "no-such.fap"));
+    assert_string_equal(t.p.stream, "tests/golden/smile/stream.fap");
+    assert_int_equal(t.p.session.frame_count, frames);
+    assert_true(playback_advance(&t.p));
+    close_stage(&t);
+}
+
+TEST(playback, keeps_its_face_when_what_is_dropped_is_none)
+{
+    stage t;
+
+    open_stage(&t);
+    drop(&t, "tests/no-such.fbank");
+    assert_int_equal(t.p.bank_number, 0);
+    playback_advance(&t.p);
+    close_stage(&t);
+}
+
+TEST(playback, a_sound_becomes_the_clock_and_a_stream_ends_it)
+{
+    static const char *const both[] = { "tests/assets/demo_take.wav", stream };
+    stage t;
+
+    open_stage(&t);
+    assert_string_equal(t.report.window.clock, "monotonic");
+    playback_drop(&t.p, 2, both); /* the stream is taken first, whatever the order */
+    if (!t.p.sound[0]) {
+        close_stage(&t);
+        skip();
+    }
+    assert_string_equal(t.report.window.clock, "sound");
+    drop(&t, "Makefile"); /* no sound: the one before stays */
+    assert_string_equal(t.report.window.clock, "sound");
+    drop(&t, stream);
+    assert_string_equal(t.report.window.clock, "monotonic");
+    close_stage(&t);
+}
+
+TEST(playback, without_a_device_it_plays_and_says_so_once)
+{
+    stage t;
+
+    open_stage(&t);
+    setenv("SDL_AUDIODRIVER", "no-such-driver", 1);
+    drop(&t, "tests/assets/demo_take.wav");
+    setenv("SDL_AUDIODRIVER", "dummy", 1);
+    assert_string_equal(t.report.window.clock, "monotonic");
+    if (t.report.sound_s > 0)
+        assert_int_equal(t.report.note_count, 1);
+    session_act(&t.p.session, (play_event){ PLAY_START, 0, 0 });
+    assert_true(t.p.session.playing);
+    close_stage(&t);
+}
+
+TEST(playback, a_picture_never_takes_the_place_of_another)
+{
+    char folder[] = "/tmp/playback-XXXXXX", command[64];
+    stage t;
+    image picture;
+
+    open_stage(&t);
+    snprintf(t.p.stream, sizeof t.p.stream, "a/b/take.one.fap");
+    char *here = getcwd(NULL, 0);
+    assert_non_null(here);
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    assert_int_equal(image_create(&picture, 4, 4), FAP_OK);
+    playback_save(&t.p, &picture);
+    if (t.report.window.screenshot_count) { /* else a build without libpng: nothing is left */
+        assert_string_equal(t.report.window.screenshot, "take.one-00000.png");
+        playback_save(&t.p, &picture);
+        assert_string_equal(t.report.window.screenshot, "take.one-00000-2.png");
+        assert_int_equal(access("take.one-00000-2.png", R_OK), 0);
+    }
+    image_free(&picture);
+    assert_int_equal(chdir(here), 0);
+    free(here);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+    close_stage(&t);
+}
