@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "common/tool.h"
 #include "player/audio/sound_file.h"
@@ -17,7 +18,7 @@ typedef struct player {
     const play_options *opt;
     play_report *report;
     scene scene;
-    renderer *renderer;
+    renderer *renderer; /* NULL: the sink wants no pictures */
     image picture;
     frame_plan plan;
     sink_setup setup;
@@ -133,40 +134,78 @@ static int open_sink(player *p)
     return o->sink->open(p->sink_state, &p->setup, &p->report->fault);
 }
 
-static int draw(player *p)
+static void pose(player *p, int64_t i)
 {
-    if (!p->renderer)
-        return 1;
-    const render_scene what = { p->scene.position, p->scene.normal, .view = render_view_of(p->opt->camera) };
-    const fap_err err = renderer_draw(p->renderer, &what, &p->picture);
-    return err ? fault_set(&p->report->fault, EXIT_DATA, "drawing failed: %s", fap_strerror(err)) : 1;
+    const int64_t number = frame_plan_at(&p->plan, i);
+    scene_pose(&p->scene, timeline_time_us(number, p->report->rate_hz), 0, p->report);
 }
 
-static int show_frame(player *p, int64_t number)
+static int show(player *p, int64_t i, const float (*point)[3])
 {
-    scene_pose(&p->scene, timeline_time_us(number, p->report->rate_hz), 0, p->report);
-    if (!draw(p))
-        return 0;
+    const int64_t number = frame_plan_at(&p->plan, i);
     const shown_frame shown = {
         .number = number,
         .time_s = (double)number / p->report->rate_hz,
-        .point = (const float(*)[3])p->scene.point,
+        .point = point,
         .picture = p->renderer ? &p->picture : NULL,
     };
-    return p->opt->sink->show(p->sink_state, &shown, &p->report->fault);
+
+    if (!p->opt->sink->show(p->sink_state, &shown, &p->report->fault))
+        return 0;
+    p->report->shown_frames++;
+    return 1;
+}
+
+static int show_poses(player *p, progress *bar)
+{
+    for (int64_t i = 0; i < p->plan.count; i++) {
+        pose(p, i);
+        if (!show(p, i, (const float(*)[3])p->scene.point))
+            return 0;
+        progress_step(bar, i + 1);
+    }
+    return 1;
+}
+
+static int drawn(player *p, fap_err err)
+{
+    return err ? fault_set(&p->report->fault, EXIT_DATA, "drawing failed: %s", fap_strerror(err)) : 1;
+}
+
+static int begin_picture(player *p)
+{
+    const render_scene what = { p->scene.position, p->scene.normal, .view = render_view_of(p->opt->camera) };
+    return drawn(p, renderer_begin(p->renderer, &what));
+}
+
+/* While a picture is drawn, the next frame is posed and the picture before is written. */
+static int show_pictures(player *p, progress *bar)
+{
+    const int64_t count = p->plan.count;
+    float point[FAP_POINT_COUNT][3]; /* of the frame that is drawn */
+
+    pose(p, 0);
+    if (!begin_picture(p))
+        return 0;
+    for (int64_t i = 0; i < count; i++) {
+        memcpy(point, p->scene.point, sizeof point);
+        if (i + 1 < count)
+            pose(p, i + 1);
+        if (!drawn(p, renderer_finish(p->renderer, &p->picture)))
+            return 0;
+        if ((i + 1 < count && !begin_picture(p)) || !show(p, i, (const float(*)[3])point))
+            return 0;
+        progress_step(bar, i + 1);
+    }
+    return 1;
 }
 
 static int show_all(player *p)
 {
     progress bar;
-    int ok = 1;
 
     progress_start(&bar, p->opt->sink->name, p->plan.count);
-    for (int64_t i = 0; ok && i < p->plan.count; i++) {
-        ok = show_frame(p, frame_plan_at(&p->plan, i));
-        p->report->shown_frames += ok;
-        progress_step(&bar, i + 1);
-    }
+    const int ok = p->renderer ? show_pictures(p, &bar) : show_poses(p, &bar);
     progress_end(&bar);
     return ok;
 }

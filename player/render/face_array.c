@@ -10,7 +10,7 @@
 #include "player/render/gl_objects.h"
 #include "player/render/occlusion.h"
 
-enum { POSITION, NORMAL, PAINT, SURFACE }; /* the locations in shaders.h */
+enum { POSITION, NORMAL, PAINT, SURFACE, ON_EYE }; /* the locations in shaders.h */
 
 typedef struct moving_vertex {
     float position[3], normal[3];
@@ -18,7 +18,8 @@ typedef struct moving_vertex {
 
 typedef struct still_vertex {
     uint8_t paint[4];
-    uint8_t open, part, head, unused;
+    uint8_t open, key, part, head;
+    int16_t on_eye[2];
 } still_vertex;
 
 static const gl_attribute moving_attributes[] = {
@@ -27,43 +28,108 @@ static const gl_attribute moving_attributes[] = {
 };
 static const gl_attribute still_attributes[] = {
     { PAINT, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(still_vertex, paint) },
-    { SURFACE, 3, GL_UNSIGNED_BYTE, GL_FALSE, offsetof(still_vertex, open) },
+    { SURFACE, 4, GL_UNSIGNED_BYTE, GL_FALSE, offsetof(still_vertex, open) },
+    { ON_EYE, 2, GL_SHORT, GL_TRUE, offsetof(still_vertex, on_eye) },
 };
 
-/*
- * Teeth shine out of the mouth whatever the closed lips hide of them, but only the front ones: the ends of
- * the row would light up in the corners of the mouth.
- */
-static void light_teeth(const fap_mesh *mesh, float *open)
+/* What the closed lips hide of it, but not to its ends: they would light up in the corners of the mouth. */
+static void light_part(const fap_mesh *mesh, fap_part part, float least, float bright_mm, float dark_mm,
+                       float *open)
 {
-    const float dark_mm = 15, bright_mm = 5; /* behind the foremost tooth */
     const float *z = mesh->position + 2 * (size_t)mesh->stride;
+    float front = -1e9f;
 
-    for (int part = FAP_PART_TEETH_UPPER; part <= FAP_PART_TEETH_LOWER; part++) {
-        float front = -1e9f;
-        for (uint32_t i = 0; i < mesh->vertex_count; i++)
-            if (mesh->part[i] == part && z[i] > front)
-                front = z[i];
-        for (uint32_t i = 0; i < mesh->vertex_count; i++)
-            if (mesh->part[i] == part)
-                open[i] =
-                    (0.35f + 0.65f * open[i]) * glm_smoothstep(front - dark_mm, front - bright_mm, z[i]);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        if (mesh->part[i] == part && z[i] > front)
+            front = z[i];
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        if (mesh->part[i] == part)
+            open[i] =
+                (least + (1 - least) * open[i]) * glm_smoothstep(front - dark_mm, front - bright_mm, z[i]);
+}
+
+/* Teeth and tongue shine out of the open mouth; their openness was measured with lips hardly parted. */
+static void light_mouth(const fap_mesh *mesh, float *open)
+{
+    light_part(mesh, FAP_PART_TEETH_UPPER, 0.40f, 5, 16, open);
+    light_part(mesh, FAP_PART_TEETH_LOWER, 0.40f, 5, 16, open);
+    light_part(mesh, FAP_PART_TONGUE, 0.34f, 6, 40, open);
+}
+
+/* What is measured of every vertex before anything is drawn. */
+typedef struct survey {
+    float *open, *key; /* how much of the sky and of the key lamp is seen */
+    int16_t (*on_eye)[2];
+    still_vertex *still;
+    uint32_t *index;
+} survey;
+
+static int survey_make(survey *s, const fap_mesh *mesh)
+{
+    const size_t n = mesh->vertex_count;
+
+    *s = (survey){
+        .open = calloc(n, sizeof *s->open),
+        .key = calloc(n, sizeof *s->key),
+        .on_eye = calloc(n, sizeof *s->on_eye),
+        .still = calloc(n, sizeof *s->still),
+        .index = calloc(3 * (size_t)mesh->triangle_count, sizeof *s->index),
+    };
+    return s->open && s->key && s->on_eye && s->still && s->index;
+}
+
+static void survey_free(survey *s)
+{
+    free(s->open);
+    free(s->key);
+    free(s->on_eye);
+    free(s->still);
+    free(s->index);
+}
+
+static face_range range_of(const fap_mesh *mesh, uint32_t triangle)
+{
+    switch (mesh->part[mesh->triangle[3 * (size_t)triangle]]) {
+    case FAP_PART_EYE_LEFT: return RANGE_EYE_LEFT;
+    case FAP_PART_EYE_RIGHT: return RANGE_EYE_RIGHT;
+    case FAP_PART_TEETH_UPPER:
+    case FAP_PART_TEETH_LOWER:
+    case FAP_PART_TONGUE: return RANGE_INSIDE;
+    default: return RANGE_SKIN;
     }
 }
 
-static void send_still(face_array *face, const gl_functions *gl, const fap_mesh *mesh, const float *open,
-                       still_vertex *still)
+/* Parts never share a triangle. */
+static void sort_triangles(face_array *face, const fap_mesh *mesh, uint32_t *index)
+{
+    GLsizei next = 0;
+
+    for (int range = 0; range < RANGE_COUNT; range++) {
+        face->first[range] = next;
+        for (uint32_t t = 0; t < mesh->triangle_count; t++)
+            if ((int)range_of(mesh, t) == range) {
+                memcpy(index + next, mesh->triangle + 3 * (size_t)t, 3 * sizeof *index);
+                next += 3;
+            }
+    }
+    face->first[RANGE_COUNT] = next;
+}
+
+static void send_still(face_array *face, const gl_functions *gl, const fap_mesh *mesh, const survey *s)
 {
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        memcpy(still[i].paint, mesh->colour + 4 * (size_t)i, 4);
-        still[i].open = (uint8_t)(255 * open[i] + 0.5f);
-        still[i].part = mesh->part[i];
-        still[i].head = mesh->head_weight[i];
+        still_vertex *v = &s->still[i];
+        memcpy(v->paint, mesh->colour + 4 * (size_t)i, 4);
+        v->open = (uint8_t)(255 * s->open[i] + 0.5f);
+        v->key = (uint8_t)(255 * s->key[i] + 0.5f);
+        v->part = mesh->part[i];
+        v->head = mesh->head_weight[i];
+        memcpy(v->on_eye, s->on_eye[i], sizeof v->on_eye);
     }
     gl->BindVertexArray(face->array);
     face->still_buffer =
-        gl_buffer_make(gl, GL_ARRAY_BUFFER, still, mesh->vertex_count * sizeof *still, GL_STATIC_DRAW);
-    gl_attributes_set(gl, still_attributes, 2, sizeof *still);
+        gl_buffer_make(gl, GL_ARRAY_BUFFER, s->still, mesh->vertex_count * sizeof *s->still, GL_STATIC_DRAW);
+    gl_attributes_set(gl, still_attributes, 3, sizeof *s->still);
 }
 
 static void make_moving(face_array *face, const gl_functions *gl, const fap_mesh *mesh)
@@ -74,28 +140,35 @@ static void make_moving(face_array *face, const gl_functions *gl, const fap_mesh
     gl_attributes_set(gl, moving_attributes, 2, sizeof(moving_vertex));
 }
 
-fap_err face_array_make(face_array *face, const gl_functions *gl, const fap_bank *bank, GLuint depth_program)
+static fap_err make_arrays(face_array *face, const gl_functions *gl, const fap_bank *bank,
+                           GLuint depth_program, survey *s)
 {
     const fap_mesh *mesh = fap_bank_mesh(bank);
-    still_vertex *still = calloc(mesh->vertex_count, sizeof *still);
-    float *open = calloc(mesh->vertex_count, sizeof *open);
-    fap_err err = FAP_E_NOMEM;
 
-    *face = (face_array){ .index_count = (GLsizei)(3 * mesh->triangle_count) };
     gl->GenVertexArrays(1, &face->array);
     gl->BindVertexArray(face->array);
-    face->index_buffer =
-        gl_buffer_make(gl, GL_ELEMENT_ARRAY_BUFFER, mesh->triangle,
-                       (size_t)mesh->triangle_count * 3 * sizeof *mesh->triangle, GL_STATIC_DRAW);
-    if (still && open)
-        err = occlusion_measure(gl, bank, face->index_buffer, depth_program, open);
-    if (!err) {
-        light_teeth(mesh, open);
-        send_still(face, gl, mesh, open, still);
-        make_moving(face, gl, mesh);
-    }
-    free(open);
-    free(still);
+    sort_triangles(face, mesh, s->index);
+    face->index_buffer = gl_buffer_make(gl, GL_ELEMENT_ARRAY_BUFFER, s->index,
+                                        (size_t)face->first[RANGE_COUNT] * sizeof *s->index, GL_STATIC_DRAW);
+    const fap_err err = occlusion_measure(gl, bank, face->index_buffer, depth_program, s->open, s->key);
+    if (err)
+        return err;
+    light_mouth(mesh, s->open);
+    for (int right = 0; right < 2; right++)
+        eye_look_measure(&face->eye[right], bank, right, s->on_eye);
+    send_still(face, gl, mesh, s);
+    make_moving(face, gl, mesh);
+    return FAP_OK;
+}
+
+fap_err face_array_make(face_array *face, const gl_functions *gl, const fap_bank *bank, GLuint depth_program)
+{
+    survey s;
+
+    *face = (face_array){ 0 };
+    const fap_err err =
+        survey_make(&s, fap_bank_mesh(bank)) ? make_arrays(face, gl, bank, depth_program, &s) : FAP_E_NOMEM;
+    survey_free(&s);
     return err;
 }
 
@@ -128,9 +201,12 @@ fap_err face_array_send(const face_array *face, const gl_functions *gl, const fa
     return FAP_OK;
 }
 
-void face_array_draw(const face_array *face, const gl_functions *gl)
+void face_array_draw(const face_array *face, const gl_functions *gl, face_range from, face_range to)
 {
+    const size_t skipped = (size_t)face->first[from] * sizeof(uint32_t);
+
     gl->BindVertexArray(face->array);
-    gl->DrawElements(GL_TRIANGLES, face->index_count, GL_UNSIGNED_INT, NULL);
+    gl->DrawElements(GL_TRIANGLES, face->first[to] - face->first[from], GL_UNSIGNED_INT,
+                     (const void *)skipped);
 }
 #endif

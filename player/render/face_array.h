@@ -5,12 +5,17 @@
 
 #include <fap/bank.h>
 
+#include "player/render/eye_look.h"
 #include "player/render/gl.h"
+
+/* Triangles that are drawn by one call, in this order: what hides the most comes first. */
+typedef enum face_range { RANGE_SKIN, RANGE_EYE_LEFT, RANGE_EYE_RIGHT, RANGE_INSIDE, RANGE_COUNT } face_range;
 
 typedef struct face_array {
     GLuint array;
     GLuint index_buffer, still_buffer, moving_buffer;
-    GLsizei index_count;
+    GLsizei first[RANGE_COUNT + 1]; /* indices in front of each range; then all */
+    eye_look eye[2];                /* left, right */
 } face_array;
 
 /* @depth_program: draws depth alone, for measuring openness; see occlusion.h. Harmless to delete after a failure. */
@@ -20,6 +25,7 @@ void face_array_delete(face_array *face, const gl_functions *gl);
 /* A pose, as fap_face_pose() gives it. FAP_E_NOMEM: the context has no room. */
 fap_err face_array_send(const face_array *face, const gl_functions *gl, const fap_mesh *mesh,
                         const float *position, const float *normal);
-void face_array_draw(const face_array *face, const gl_functions *gl);
+/* Ranges @from up to, without, @to. */
+void face_array_draw(const face_array *face, const gl_functions *gl, face_range from, face_range to);
 
 #endif

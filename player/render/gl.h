@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * The functions of OpenGL 3.3 core that the renderer calls, loaded from whichever context there is. The types come from
- * Khronos' GL/glcorearb.h; no loader library knows OSMesa, and sixty pointers do not need one.
+ * Khronos' GL/glcorearb.h; no loader library knows OSMesa, and seventy pointers do not need one.
  */
 #ifndef PLAYER_RENDER_GL_H
 #define PLAYER_RENDER_GL_H
@@ -11,14 +11,23 @@
 #define GL_FUNCTIONS(X)                                                                                      \
     X(PFNGLGETSTRINGPROC, GetString)                                                                         \
     X(PFNGLGETERRORPROC, GetError)                                                                           \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                     \
     X(PFNGLVIEWPORTPROC, Viewport)                                                                           \
     X(PFNGLCLEARPROC, Clear)                                                                                 \
+    X(PFNGLCLEARCOLORPROC, ClearColor)                                                                       \
     X(PFNGLENABLEPROC, Enable)                                                                               \
     X(PFNGLDISABLEPROC, Disable)                                                                             \
     X(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                     \
     X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                                 \
     X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                         \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                     \
+    X(PFNGLFLUSHPROC, Flush)                                                                                 \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                 \
+    X(PFNGLGENTEXTURESPROC, GenTextures)                                                                     \
+    X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                     \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                               \
+    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                       \
+    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                 \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                       \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                   \
@@ -36,8 +45,10 @@
     X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                 \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                       \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                       \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                         \
     X(PFNGLUNIFORM1FPROC, Uniform1f)                                                                         \
     X(PFNGLUNIFORM3FVPROC, Uniform3fv)                                                                       \
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                       \
     X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                                                           \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                             \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                             \
@@ -56,10 +67,10 @@
     X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                           \
     X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                                           \
     X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                     \
-    X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                               \
+    X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                                     \
+    X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                   \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                             \
-    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                               \
-    X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)
+    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)
 
 typedef struct gl_functions {
 #define X(type, name) type name;

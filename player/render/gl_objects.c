@@ -67,27 +67,42 @@ void gl_attributes_set(const gl_functions *gl, const gl_attribute *attribute, in
     }
 }
 
-static GLuint make_store(const gl_functions *gl, GLenum attachment, GLenum format, int width, int height,
-                         int samples)
+static GLuint make_colour(const gl_functions *gl, int width, int height)
+{
+    GLuint texture;
+
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+static GLuint make_depth(const gl_functions *gl, int width, int height)
 {
     GLuint store;
 
     gl->GenRenderbuffers(1, &store);
     gl->BindRenderbuffer(GL_RENDERBUFFER, store);
-    gl->RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, store);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, store);
     return store;
 }
 
-int gl_target_make(const gl_functions *gl, gl_target *target, int width, int height, int samples,
-                   int has_depth)
+int gl_target_make(const gl_functions *gl, gl_target *target, int width, int height, int has_depth)
 {
     *target = (gl_target){ 0 };
     gl->GenFramebuffers(1, &target->frame);
     gl->BindFramebuffer(GL_FRAMEBUFFER, target->frame);
-    target->colour = make_store(gl, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, samples);
+    target->colour = make_colour(gl, width, height);
     if (has_depth)
-        target->depth = make_store(gl, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height, samples);
+        target->depth = make_depth(gl, width, height);
     if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
         return 1;
     gl_target_delete(gl, target);
@@ -97,7 +112,7 @@ int gl_target_make(const gl_functions *gl, gl_target *target, int width, int hei
 void gl_target_delete(const gl_functions *gl, gl_target *target)
 {
     gl->DeleteFramebuffers(1, &target->frame); /* OpenGL ignores 0 */
-    gl->DeleteRenderbuffers(1, &target->colour);
+    gl->DeleteTextures(1, &target->colour);
     gl->DeleteRenderbuffers(1, &target->depth);
     *target = (gl_target){ 0 };
 }

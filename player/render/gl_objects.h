@@ -27,12 +27,11 @@ void gl_attributes_set(const gl_functions *gl, const gl_attribute *attribute, in
 
 /* A framebuffer object and what it is made of. */
 typedef struct gl_target {
-    GLuint frame, colour, depth;
+    GLuint frame, colour, depth; /* colour: a texture, read between its pixels */
 } gl_target;
 
-/* @samples: 0 none. @has_depth: 0 colour alone. @return 0: too large, and nothing was made */
-int gl_target_make(const gl_functions *gl, gl_target *target, int width, int height, int samples,
-                   int has_depth);
+/* @has_depth: 0 colour alone. @return 0: too large, and nothing was made */
+int gl_target_make(const gl_functions *gl, gl_target *target, int width, int height, int has_depth);
 /* Harmless on a zeroed one. */
 void gl_target_delete(const gl_functions *gl, gl_target *target);
 

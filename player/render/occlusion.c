@@ -7,9 +7,10 @@
 #include <cglm/cglm.h>
 
 #include "player/render/gl_objects.h"
+#include "player/render/lamps.h"
 #include "player/render/occlusion.h"
 
-enum { SIZE = 320, DIRECTIONS = 40, SMOOTHINGS = 3 };
+enum { SIZE = 320, SKY_DIRECTIONS = 40, KEY_DIRECTIONS = 10, OPEN_SMOOTHINGS = 3, KEY_SMOOTHINGS = 4 };
 
 /*
  * The face as it is measured: jaw and lips a little open, else the inside of the mouth and the rims of the
@@ -36,12 +37,27 @@ static void open_mouth(const fap_bank *bank, float *position)
 }
 
 /* Directions spread evenly over the sphere by the golden angle. */
-static void direction(int i, vec3 out)
+static void sky_direction(int i, vec3 out)
 {
-    const float y = 1 - 2 * (i + 0.5f) / DIRECTIONS, r = sqrtf(1 - y * y), turn = 2.39996323f * i;
+    const float y = 1 - 2 * (i + 0.5f) / SKY_DIRECTIONS, r = sqrtf(1 - y * y), turn = 2.39996323f * i;
     out[0] = r * cosf(turn);
     out[1] = y;
     out[2] = r * sinf(turn);
+}
+
+/* Directions spread evenly over the key lamp. */
+static void key_direction(int i, vec3 out)
+{
+    const float wide = 0.30f, r = wide * sqrtf((i + 0.5f) / KEY_DIRECTIONS), turn = 2.39996323f * i;
+    vec3 middle = { KEY_FROM }, side, up;
+
+    glm_vec3_normalize(middle);
+    glm_vec3_crossn((vec3){ 0, 1, 0 }, middle, side);
+    glm_vec3_cross(middle, side, up);
+    glm_vec3_copy(middle, out);
+    glm_vec3_muladds(side, r * cosf(turn), out);
+    glm_vec3_muladds(up, r * sinf(turn), out);
+    glm_vec3_normalize(out);
 }
 
 typedef struct cloud {
@@ -94,23 +110,31 @@ static void view_from(const cloud *c, vec3 from, mat4 out)
     glm_mat4_mul(projection, view, out);
 }
 
+/* What is added up: of all that a vertex faces, how much it sees. */
+typedef struct sight {
+    float *sum, *seen;
+    float floor; /* brightness of the floor against the sky's: 1 where direction does not matter */
+    float least; /* the least cosine that counts as facing */
+    float trust; /* weight of being seen before anything was: what faces little is known badly */
+} sight;
+
 /* A vertex counts as seen when it lies at most a hair behind what the picture shows there. */
-static void add_seen(const cloud *c, vec3 from, mat4 view, const float *depth, float *sum, float *seen)
+static void add_seen(const cloud *c, vec3 from, mat4 view, const float *depth, const sight *s)
 {
     const float hair = 0.9f / (2 * c->radius); /* 0.9 mm in depth units, 0..1 over two radii */
+    const float bright = 0.5f * (1 + s->floor) + 0.5f * (1 - s->floor) * from[1];
 
     for (uint32_t i = 0; i < c->count; i++) {
         const float facing = glm_vec3_dot(c->normal + 3 * i, from);
-        if (facing <= 0.02f)
+        if (facing <= s->least)
             continue;
-        /* The sky is brighter than the floor. */
-        const float weight = facing * (0.65f + 0.35f * from[1]);
+        const float weight = facing * bright;
         vec3 p;
         glm_mat4_mulv3(view, c->position + 3 * i, 1, p);
         const int x = (int)((p[0] * 0.5f + 0.5f) * SIZE), y = (int)((p[1] * 0.5f + 0.5f) * SIZE);
-        sum[i] += weight;
+        s->sum[i] += weight;
         if (x < 0 || y < 0 || x >= SIZE || y >= SIZE || p[2] * 0.5f + 0.5f <= depth[y * SIZE + x] + hair)
-            seen[i] += weight;
+            s->seen[i] += weight;
     }
 }
 
@@ -122,7 +146,7 @@ static gl_target depth_target(const gl_functions *gl)
     gl->BindFramebuffer(GL_FRAMEBUFFER, t.frame);
     gl->GenRenderbuffers(1, &t.depth);
     gl->BindRenderbuffer(GL_RENDERBUFFER, t.depth);
-    gl->RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_DEPTH_COMPONENT32F, SIZE, SIZE);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, SIZE, SIZE);
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t.depth);
     return t;
 }
@@ -135,35 +159,52 @@ static void draw_depth(const gl_functions *gl, GLint uniform, mat4 view, uint32_
     gl->ReadPixels(0, 0, SIZE, SIZE, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
 }
 
-static void look_around(const gl_functions *gl, const cloud *c, const fap_mesh *mesh, GLuint index_buffer,
-                        GLuint program, float *depth, float *sum, float *seen)
-{
+/* The array and target that the views are drawn with. */
+typedef struct watch {
+    const gl_functions *gl;
+    const cloud *cloud;
+    gl_target target;
     GLuint array, vertices;
+    GLint uniform;
+    uint32_t triangles;
+    float *depth;
+} watch;
 
-    gl->GenVertexArrays(1, &array);
-    gl->BindVertexArray(array);
-    gl->GenBuffers(1, &vertices);
-    gl->BindBuffer(GL_ARRAY_BUFFER, vertices);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(c->count * 3 * sizeof(float)), c->position, GL_STATIC_DRAW);
+static void watch_open(watch *w, GLuint index_buffer, GLuint program)
+{
+    const gl_functions *gl = w->gl;
+
+    gl->GenVertexArrays(1, &w->array);
+    gl->BindVertexArray(w->array);
+    w->vertices = gl_buffer_make(gl, GL_ARRAY_BUFFER, w->cloud->position, w->cloud->count * 3 * sizeof(float),
+                                 GL_STATIC_DRAW);
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
     gl->EnableVertexAttribArray(0);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer);
-    gl_target target = depth_target(gl);
+    w->target = depth_target(gl);
     gl->Viewport(0, 0, SIZE, SIZE);
     gl->Enable(GL_DEPTH_TEST);
     gl->UseProgram(program);
-    const GLint uniform = gl->GetUniformLocation(program, "view_projection");
-    for (int i = 0; i < DIRECTIONS; i++) {
+    w->uniform = gl->GetUniformLocation(program, "view_projection");
+}
+
+static void watch_close(watch *w)
+{
+    gl_target_delete(w->gl, &w->target);
+    w->gl->DeleteBuffers(1, &w->vertices);
+    w->gl->DeleteVertexArrays(1, &w->array);
+}
+
+static void look_from(const watch *w, void (*direction)(int i, vec3 out), int count, const sight *s)
+{
+    for (int i = 0; i < count; i++) {
         vec3 from;
         mat4 view;
         direction(i, from);
-        view_from(c, from, view);
-        draw_depth(gl, uniform, view, mesh->triangle_count, depth);
-        add_seen(c, from, view, depth, sum, seen);
+        view_from(w->cloud, from, view);
+        draw_depth(w->gl, w->uniform, view, w->triangles, w->depth);
+        add_seen(w->cloud, from, view, w->depth, s);
     }
-    gl_target_delete(gl, &target);
-    gl->DeleteBuffers(1, &vertices);
-    gl->DeleteVertexArrays(1, &array);
 }
 
 /* Vertices at a grazing angle are seen or not by a hair; the mean with their neighbours hides that. */
@@ -184,26 +225,43 @@ static void smooth(const fap_mesh *mesh, float *open, float *sum, float *count)
             open[i] = sum[i] / count[i];
 }
 
+/* Shares out of sums. */
+static void finish(const fap_mesh *mesh, const sight *s, int smoothings, float *scratch)
+{
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        s->seen[i] = (s->seen[i] + s->trust) / (s->sum[i] + s->trust);
+    for (int i = 0; i < smoothings; i++)
+        smooth(mesh, s->seen, s->sum, scratch);
+}
+
 fap_err occlusion_measure(const gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
-                          float *open)
+                          float *open, float *key)
 {
     const fap_mesh *mesh = fap_bank_mesh(bank);
+    const size_t n = mesh->vertex_count;
     cloud c = { .count = mesh->vertex_count };
-    float *depth = malloc(SIZE * SIZE * sizeof *depth), *sum = calloc(mesh->vertex_count, sizeof *sum);
+    float *depth = malloc(SIZE * SIZE * sizeof *depth), *sum = calloc(n, 2 * sizeof *sum);
 
-    c.position = calloc(mesh->vertex_count, 3 * sizeof(float));
-    c.normal = calloc(mesh->vertex_count, 3 * sizeof(float));
-    memset(open, 0, mesh->vertex_count * sizeof *open);
+    c.position = calloc(n, 3 * sizeof(float));
+    c.normal = calloc(n, 3 * sizeof(float));
+    memset(open, 0, n * sizeof *open);
+    memset(key, 0, n * sizeof *key);
     const int have = depth && sum && c.position && c.normal;
     if (have) {
         open_mouth(bank, c.position);
         measure_bounds(&c);
         measure_normals(&c, mesh);
-        look_around(gl, &c, mesh, index_buffer, program, depth, sum, open);
-        for (uint32_t i = 0; i < c.count; i++)
-            open[i] = sum[i] > 0 ? open[i] / sum[i] : 1;
-        for (int i = 0; i < SMOOTHINGS; i++)
-            smooth(mesh, open, sum, c.normal);
+        const sight sky = { .sum = sum, .seen = open, .floor = 0.30f, .least = 0.02f, .trust = 1e-6f };
+        const sight lamp = {
+            .sum = sum + n, .seen = key, .floor = 1, .least = 0.05f, .trust = 0.1f * KEY_DIRECTIONS
+        };
+        watch w = { .gl = gl, .cloud = &c, .triangles = mesh->triangle_count, .depth = depth };
+        watch_open(&w, index_buffer, program);
+        look_from(&w, sky_direction, SKY_DIRECTIONS, &sky);
+        look_from(&w, key_direction, KEY_DIRECTIONS, &lamp);
+        watch_close(&w);
+        finish(mesh, &sky, OPEN_SMOOTHINGS, c.normal);
+        finish(mesh, &lamp, KEY_SMOOTHINGS, c.normal);
     }
     free(c.normal);
     free(c.position);

@@ -9,9 +9,10 @@
 
 /*
  * @index_buffer  the mesh's triangles, already on the GL side
- * @open          [vertex_count], 0: sees nothing, 1: nothing in the way
+ * @open          [vertex_count], 0: sees nothing of the sky, 1: nothing in the way
+ * @key           the same for the key lamp, which is as wide as a window; 1 where the face turns away from it too
  */
 fap_err occlusion_measure(const gl_functions *gl, const fap_bank *bank, GLuint index_buffer, GLuint program,
-                          float *open);
+                          float *open, float *key);
 
 #endif

@@ -50,13 +50,13 @@ void overlay_draw_wire(const overlay *o, const gl_functions *gl, const face_arra
     gl->Enable(GL_POLYGON_OFFSET_LINE);
     gl->PolygonOffset(-1, -2);
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    face_array_draw(face, gl);
+    face_array_draw(face, gl, RANGE_SKIN, RANGE_COUNT);
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     gl->Disable(GL_POLYGON_OFFSET_LINE);
 }
 
 void overlay_draw_marks(const overlay *o, const gl_functions *gl, const render_mark *mark, int count,
-                        const render_lens *c, int height_px)
+                        const render_lens *c, float size_px)
 {
     /* Share of the distance to the eye that a mark on the skin is drawn nearer, so that its disc is not half inside. */
     const float nearer = 0.008f, behind_alpha = 0.3f;
@@ -66,12 +66,12 @@ void overlay_draw_marks(const overlay *o, const gl_functions *gl, const render_m
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)count * sizeof *mark), mark, GL_STREAM_DRAW);
     gl->UseProgram(o->mark_program);
     gl->UniformMatrix4fv(o->mark_view, 1, GL_FALSE, c->view_projection[0]);
-    gl->Uniform1f(o->mark_size, fmaxf(5, (float)height_px / 110));
+    gl->Uniform1f(o->mark_size, size_px);
     gl->Uniform1f(o->mark_nearer, nearer);
     gl->Uniform3fv(o->mark_eye, 1, c->eye);
     gl->Enable(GL_PROGRAM_POINT_SIZE);
     gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl->Disable(GL_DEPTH_TEST);
     gl->Uniform1f(o->mark_alpha, behind_alpha);
     gl->DrawArrays(GL_POINTS, 0, count);

@@ -21,6 +21,6 @@ void overlay_delete(overlay *o, const gl_functions *gl);
 void overlay_draw_wire(const overlay *o, const gl_functions *gl, const face_array *face,
                        const render_lens *c);
 void overlay_draw_marks(const overlay *o, const gl_functions *gl, const render_mark *mark, int count,
-                        const render_lens *c, int height_px);
+                        const render_lens *c, float size_px);
 
 #endif

@@ -65,6 +65,14 @@ fap_err renderer_resize(renderer *r, int width, int height);
  */
 fap_err renderer_draw(renderer *r, const render_scene *scene, image *out);
 
+/*
+ * The two halves of renderer_draw(). Behind begin the scene's arrays are free again, and the context draws while the caller does
+ * something else: poses the next frame, writes the picture before. One picture at a time: begin, finish, begin ...
+ * FAP_E_ARG: nothing was begun, or twice.
+ */
+fap_err renderer_begin(renderer *r, const render_scene *scene);
+fap_err renderer_finish(renderer *r, image *out);
+
 /* Where in a framebuffer of the context a picture goes; 0 is the window. Rows count from the bottom, as OpenGL's. */
 typedef struct render_target {
     unsigned framebuffer;

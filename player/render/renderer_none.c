@@ -42,6 +42,18 @@ fap_err renderer_draw(renderer *r, const render_scene *scene, image *out)
     return FAP_E_UNSUPPORTED;
 }
 
+fap_err renderer_begin(renderer *r, const render_scene *scene)
+{
+    (void)r, (void)scene;
+    return FAP_E_UNSUPPORTED;
+}
+
+fap_err renderer_finish(renderer *r, image *out)
+{
+    (void)r, (void)out;
+    return FAP_E_UNSUPPORTED;
+}
+
 fap_err renderer_show(renderer *r, const render_scene *scene, render_target target)
 {
     (void)r, (void)scene, (void)target;

@@ -176,6 +176,25 @@ TEST(renderer, two_at_a_time_do_not_disturb_each_other)
     close_stage(&a);
 }
 
+TEST(renderer, one_picture_is_begun_and_finished_at_a_time)
+{
+    stage s;
+
+    open_stage(&s);
+    const render_scene scene = scene_of(&s, 400);
+    image whole = draw(&s, &scene, SIZE), halves = draw(&s, &scene, SIZE);
+    assert_int_equal(renderer_finish(s.renderer, &halves), FAP_E_ARG);
+    assert_int_equal(renderer_begin(s.renderer, &scene), FAP_OK);
+    assert_int_equal(renderer_begin(s.renderer, &scene), FAP_E_ARG);
+    memset(s.position, 0, 3 * sizeof(float) * fap_face_stride(s.face)); /* the arrays are free again */
+    memset(halves.rgba, 0, SIZE * SIZE * 4);
+    assert_int_equal(renderer_finish(s.renderer, &halves), FAP_OK);
+    assert_memory_equal(whole.rgba, halves.rgba, SIZE * SIZE * 4);
+    image_free(&whole);
+    image_free(&halves);
+    close_stage(&s);
+}
+
 TEST(renderer, another_size_and_back_is_the_same_picture)
 {
     stage s;
@@ -314,7 +333,7 @@ TEST(renderer, shows_into_a_framebuffer_of_the_caller_what_it_would_have_read_ba
     image expected = draw(&s, &scene, SIZE), shown;
     assert_int_equal(gl_context_open(&context, NULL, where), FAP_OK);
     assert_null(gl_load(&gl, context.driver->get_function));
-    assert_true(gl_target_make(&gl, &window, SIZE, SIZE, 0, 0));
+    assert_true(gl_target_make(&gl, &window, SIZE, SIZE, 0));
     renderer_destroy(&s.renderer);
     context.driver->make_current(context.state);
     const gl_context_source source = { .get_function = context.driver->get_function };
