@@ -379,8 +379,10 @@ static void load_basis_arrays(loader *l, fap_basis *basis, basis_arrays *a)
     a->delta = array(l, "PCAD", (size_t)a->run_count * 3 * FAP_BLOCK, 2);
     if (l->err)
         return;
-    require(l, all_sane(&a->points[0][0][0], shapes * FAP_POINT_COUNT * 3) &&
-                   all_sane(a->mix, (shapes - 1) * models));
+    require(l, all_sane(&a->points[0][0][0], shapes * FAP_POINT_COUNT * 3));
+    for (size_t i = 0; i < (shapes - 1) * models; i++)
+        require(l,
+                fabsf(a->mix[i]) <= 1); /* entries of a unit vector, over the root of the number of models */
     load_models(l, basis);
 }
 

@@ -386,7 +386,7 @@ static const struct damage {
     { "PCAM", 4, 85 },
     { "PCAM", 8, 0 },
     { "PCAW", 0, 0x7fc00000 },
-    { "PCAW", 8, 0x7f800000 },
+    { "PCAW", 8, 0x3f800001 },
     { "PCAP", 0, 0x7fc00000 },
     { "PCAB", 0, 0xffffffff },
     { "PCAB", 0, 0x00000000 },
