@@ -11,7 +11,7 @@ cmp "$T/a.fbank" "$T/out" || fail "standard output gets another bank"
 expect 0 "$B/fapbank" info --json "$T/a.fbank"
 python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); assert j["points"] == 84 and len(j["keys"]) == 85' "$T/out"
 python3 -c 'import json, sys; o = json.load(open(sys.argv[1]))["observed"]["units_faps"]
-assert o["axes"] == 50 and 20 < o["rank"] < o["keys"] and o["condition"] > 1 and "eyeLookInLeft" in o["unseen"]' "$T/out" ||
+assert o["axes"] == 52 and 20 < o["rank"] < o["keys"] and o["condition"] > 1 and "eyeLookInLeft" in o["unseen"]' "$T/out" ||
     fail "what the points can tell is not told"
 expect 0 "$B/fapbank" info builtin
 says 'built-in'
