@@ -10,7 +10,7 @@
 #include "player/render/lamps.h"
 #include "player/render/occlusion.h"
 
-enum { SIZE = 320, SKY_DIRECTIONS = 40, KEY_DIRECTIONS = 10, OPEN_SMOOTHINGS = 3, KEY_SMOOTHINGS = 4 };
+enum { SIZE = 320, SKY_DIRECTIONS = 32, KEY_DIRECTIONS = 8, OPEN_SMOOTHINGS = 3, KEY_SMOOTHINGS = 4 };
 
 /*
  * The face as it is measured: jaw and lips a little open, else the inside of the mouth and the rims of the
@@ -151,14 +151,6 @@ static gl_target depth_target(const gl_functions *gl)
     return t;
 }
 
-static void draw_depth(const gl_functions *gl, GLint uniform, mat4 view, uint32_t triangles, float *depth)
-{
-    gl->UniformMatrix4fv(uniform, 1, GL_FALSE, view[0]);
-    gl->Clear(GL_DEPTH_BUFFER_BIT);
-    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * triangles), GL_UNSIGNED_INT, NULL);
-    gl->ReadPixels(0, 0, SIZE, SIZE, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
-}
-
 /* The array and target that the views are drawn with. */
 typedef struct watch {
     const gl_functions *gl;
@@ -184,6 +176,7 @@ static void watch_open(watch *w, GLuint index_buffer, GLuint program)
     w->target = depth_target(gl);
     gl->Viewport(0, 0, SIZE, SIZE);
     gl->Enable(GL_DEPTH_TEST);
+    gl->Enable(GL_CULL_FACE);
     gl->UseProgram(program);
     w->uniform = gl->GetUniformLocation(program, "view_projection");
 }
@@ -195,16 +188,35 @@ static void watch_close(watch *w)
     w->gl->DeleteVertexArrays(1, &w->array);
 }
 
+typedef struct look {
+    vec3 from;
+    mat4 view;
+} look;
+
+/* Queued, not waited for. */
+static void begin_look(const watch *w, look *l)
+{
+    view_from(w->cloud, l->from, l->view);
+    w->gl->UniformMatrix4fv(w->uniform, 1, GL_FALSE, l->view[0]);
+    w->gl->Clear(GL_DEPTH_BUFFER_BIT);
+    w->gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * w->triangles), GL_UNSIGNED_INT, NULL);
+    w->gl->Flush();
+}
+
+/* One look is drawn while the one before is counted. */
 static void look_from(const watch *w, void (*direction)(int i, vec3 out), int count, const sight *s)
 {
+    look now, before;
+
     for (int i = 0; i < count; i++) {
-        vec3 from;
-        mat4 view;
-        direction(i, from);
-        view_from(w->cloud, from, view);
-        draw_depth(w->gl, w->uniform, view, w->triangles, w->depth);
-        add_seen(w->cloud, from, view, w->depth, s);
+        direction(i, now.from);
+        begin_look(w, &now);
+        if (i)
+            add_seen(w->cloud, before.from, before.view, w->depth, s);
+        w->gl->ReadPixels(0, 0, SIZE, SIZE, GL_DEPTH_COMPONENT, GL_FLOAT, w->depth);
+        before = now;
     }
+    add_seen(w->cloud, before.from, before.view, w->depth, s);
 }
 
 /* Vertices at a grazing angle are seen or not by a hair; the mean with their neighbours hides that. */

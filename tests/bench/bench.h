@@ -28,9 +28,11 @@ double bench_now_s(void);
 /* Seconds of take encoded in a second. */
 double bench_encode_x_realtime(void);
 
-/* Pictures a second of a moving face, and what the moving costs against a still one. */
-double bench_play_fps(void);
-double bench_render_overhead(void);
+/* Pictures a second of a moving face, and what a frame costs against bare OpenGL; the player's first picture. */
+double bench_offscreen_fps_52k(void);
+double bench_offscreen_fps_default(void);
+double bench_render_overhead_ratio(void);
+double bench_startup_ms(void);
 
 /* Frames of 58 FAPs that the .fap reader takes in a second. */
 double bench_ascii_parse_fps(void);
