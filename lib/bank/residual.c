@@ -15,8 +15,9 @@
 static const float typical_es_mm = 62; /* radii are for a face with its eyes this far apart */
 static const float least_radius_mm = 5;
 static const float detour_near = 1.15f, detour_far = 1.6f; /* way along the surface : straight line */
-static const double least_pivot = 1e-3;                    /* below it two points are one */
-static const float strongest_mm = 40;                      /* no field folds the face further than this */
+static const float least_blink_mm = 2, most_of_lid = 1.3f;
+static const double least_pivot = 1e-3; /* below it two points are one */
+static const float strongest_mm = 40;   /* no field folds the face further than this */
 
 /* Points that face one another across a slit: their fields must end before they meet. */
 static const char *const across[][2] = { { "2.2", "2.3" }, { "2.6", "2.8" }, { "2.7", "2.9" },
@@ -115,6 +116,34 @@ static void fill_values(const fap_graph *g, const fap_bank_point *point, float r
     }
 }
 
+/* The unit that lowers the lid of point @p p; -1: not an upper lid, or the bank has no such unit. */
+static int lid_unit(const fap_bank *bank, int p)
+{
+    const char *name = fap_point_get(p)->name;
+
+    return !strcmp(name, "3.1")   ? fap_bank_key_find(bank, FAP_KEY_UNIT, "eyeBlinkLeft")
+           : !strcmp(name, "3.2") ? fap_bank_key_find(bank, FAP_KEY_UNIT, "eyeBlinkRight")
+                                  : -1;
+}
+
+/*
+ * An upper lid has one point in its middle, and its edge must follow it all along: a round field made a tent with the eye
+ * in sight on both sides. So its field is the shape of the blink.
+ */
+static void fill_lid(const fap_bank *bank, int unit, int p, const uint32_t *follows, const uint8_t *mask,
+                     uint8_t beyond, float *blink, float *value)
+{
+    const fap_key *key = fap_bank_key_get(bank, unit);
+    const float full = key->point_mm[p][1] / key->scale_mm;
+
+    memset(blink, 0, fap_bank_mesh(bank)->stride * sizeof *blink);
+    for (uint32_t b = 0; b < key->block_count; b++)
+        for (int i = 0; i < FAP_BLOCK; i++)
+            blink[key->block[b] * FAP_BLOCK + i] = key->delta[(b * 3 + 1) * FAP_BLOCK + (uint32_t)i] / full;
+    for (uint32_t v = 0; v < fap_bank_mesh(bank)->vertex_count; v++)
+        value[v] = mask && (mask[follows[v]] & beyond) ? 0 : fminf(most_of_lid, fmaxf(0, blink[follows[v]]));
+}
+
 static int block_moves(const float *value)
 {
     float sum = 0;
@@ -154,6 +183,7 @@ static void note_pull(fap_residual *r, const fap_bank *bank, int q, const float 
     }
 }
 
+/* @p value has room for a second row, for work. */
 static int open_field(fap_residual *r, fap_graph *g, const fap_bank *bank, int p, const uint32_t *follows,
                       float *value, const fap_allocator *alloc)
 {
@@ -163,9 +193,14 @@ static int open_field(fap_residual *r, fap_graph *g, const fap_bank *bank, int p
 
     if (!point->present || !point->vertex_count || !(widest > 0))
         return 0;
-    fap_graph_flood(g, point->vertex, point->vertex_count, detour_far * widest);
-    fill_values(g, point, radius_of(g, bank, p, scale), follows, fap_bank_masks(bank),
-                fap_mask_across(fap_mask_of_point(p)), value);
+    const uint8_t *mask = fap_bank_masks(bank), beyond = fap_mask_across(fap_mask_of_point(p));
+    const int unit = lid_unit(bank, p);
+    if (unit >= 0 && fap_bank_key_get(bank, unit)->point_mm[p][1] < -least_blink_mm) {
+        fill_lid(bank, unit, p, follows, mask, beyond, value + g->stride, value);
+    } else {
+        fap_graph_flood(g, point->vertex, point->vertex_count, detour_far * widest);
+        fill_values(g, point, radius_of(g, bank, p, scale), follows, mask, beyond, value);
+    }
     note_pull(r, bank, p, value);
     return pack(&r->field[p], value, g->stride, alloc);
 }
@@ -173,7 +208,7 @@ static int open_field(fap_residual *r, fap_graph *g, const fap_bank *bank, int p
 int fap_residual_open(fap_residual *r, const fap_bank *bank, fap_graph *graph, const uint32_t *follows,
                       const fap_allocator *alloc)
 {
-    float *value = fap_mem_calloc(alloc, fap_bank_mesh(bank)->stride, sizeof *value);
+    float *value = fap_mem_calloc(alloc, 2 * (size_t)fap_bank_mesh(bank)->stride, sizeof *value);
     int failed = !value;
 
     memset(r, 0, sizeof *r);
