@@ -91,12 +91,25 @@ static float asked_share(const fap_face *face, int p)
     return fminf(1, sqrtf(square) / asked_mm);
 }
 
+/* The thesis's own case: every point it moves is known in all three axes. There all keys take part. */
+static int all_told(const fap_face *face)
+{
+    for (int p = 0; p < FAP_POINT_COUNT; p++) {
+        const uint8_t *w = face->wanted[p];
+        if (face->solvable[p] && !(w[0] && w[1] && w[2]) && population_moves(face, p))
+            return 0;
+    }
+    return 1;
+}
+
 /* As fap_blend_beside(), but what must stay where it is counts as beside. */
 static void find_beside(fap_zhu *zhu, const fap_face *face, int region)
 {
     float *beside = zhu->beside, *asked = beside + face->key_count;
 
     memset(beside, 0, 2 * sizeof *beside * (size_t)face->key_count);
+    if (all_told(face))
+        return;
     for (int p = 0; p < FAP_POINT_COUNT; p++) {
         const uint8_t *w = face->wanted[p];
         const float share = face->regions.point[region][p], ask = asked_share(face, p);
@@ -126,8 +139,8 @@ static float least_beside(const fap_zhu *zhu, const fap_face *face)
 
 /*
  * A key that hardly moves what is asked for (a blink, when only the mouth is commanded) would be scaled to a
- * monster by the ratio of lengths; the thesis's keys all move most of the face. With every point commanded
- * all keys take part.
+ * monster by the ratio of lengths; the thesis's keys all move most of the face, and with every point commanded
+ * all of them take part.
  */
 static void add_population(fap_zhu *zhu, const fap_face *face, const goal *g)
 {
