@@ -28,6 +28,7 @@ static const char usage[] =
     "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
     "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
     "      --camera=NAME   front, left, right or three-quarter\n"
+    "      --gl=NAME       osmesa or egl: OpenGL by this library (the first that works)\n"
     "      --masks         colours show the sides of mouth and eyes: lips red and blue, lids orange and "
     "teal\n"
     "      --regions       colours show the region map: red is the face's left, blue its upper half\n"
@@ -47,7 +48,7 @@ static const char usage[] =
     "\n"
     "exit status: 0 done, 1 bad data, 2 bad usage, 3 built without what this needs\n";
 
-enum { OPT_COLUMNS = 256, OPT_TILE, OPT_CAMERA, OPT_UNITS, OPT_MASKS, OPT_REGIONS, OPT_COMPONENTS };
+enum { OPT_COLUMNS = 256, OPT_TILE, OPT_CAMERA, OPT_GL, OPT_UNITS, OPT_MASKS, OPT_REGIONS, OPT_COMPONENTS };
 
 static const struct option long_options[] = {
     { "output", required_argument, NULL, 'o' },
@@ -55,6 +56,7 @@ static const struct option long_options[] = {
     { "tile", required_argument, NULL, OPT_TILE },
     { "json", no_argument, NULL, 'j' },
     { "camera", required_argument, NULL, OPT_CAMERA },
+    { "gl", required_argument, NULL, OPT_GL },
     { "units", no_argument, NULL, OPT_UNITS },
     { "masks", no_argument, NULL, OPT_MASKS },
     { "regions", no_argument, NULL, OPT_REGIONS },
@@ -98,6 +100,12 @@ static int take_camera(options *opt, const char *name)
     return 1;
 }
 
+static int take_gl(options *opt, const char *name)
+{
+    opt->sheet.gl = name;
+    return render_gl_known(name) || wrong(opt, "no such way to draw: ", name);
+}
+
 static int take_option(options *opt, int option)
 {
     switch (option) {
@@ -107,6 +115,7 @@ static int take_option(options *opt, int option)
     case OPT_TILE:
         return parse_number(optarg, 32, 1024, &opt->sheet.tile_px) || wrong(opt, "bad --tile ", optarg);
     case OPT_CAMERA: return take_camera(opt, optarg);
+    case OPT_GL: return take_gl(opt, optarg);
     case OPT_UNITS: opt->sheet.units = 1; return 1;
     case OPT_MASKS: opt->paint = PAINT_MASKS; return 1;
     case OPT_REGIONS: opt->paint = PAINT_REGIONS; return 1;

@@ -11,6 +11,7 @@ typedef struct sheet_style {
     int columns, tile_px;
     int units; /* the units instead of the key models */
     render_camera camera;
+    const char *gl; /* NULL: the first way to draw that works */
 } sheet_style;
 
 /* @p where (FAP_ERROR_TEXT_SIZE) says what failed; FAP_E_UNSUPPORTED: no way to render in this build or here.

@@ -231,7 +231,7 @@ static int set_camera(play_options *o, const char *text)
 static int set_gl(play_options *o, const char *text)
 {
     o->gl = text;
-    return !strcmp(text, "osmesa") || !strcmp(text, "egl");
+    return render_gl_known(text);
 }
 
 static int set_sheet(play_options *o, const char *text)

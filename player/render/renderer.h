@@ -95,6 +95,9 @@ int renderer_project(const renderer *r, const render_view *view, const float pla
 /* GL_RENDERER of the context, for reports: pictures differ by it. */
 const char *renderer_description(const renderer *r);
 
+/* Whether it is "osmesa" or "egl", in this build or not. */
+int render_gl_known(const char *name);
+
 /* The names that renderer_create() takes in this build, in the order they are tried; NULL past the last. */
 const char *renderer_gl_name(int i);
 

@@ -119,6 +119,7 @@ expect 2 "$B/fapbank" build builtin
 expect 2 "$B/fapbank" paint builtin -o "$T/x"
 expect 2 "$B/fapbank" render builtin -o "$T/x.png" --tile 5
 expect 2 "$B/fapbank" render builtin -o "$T/x.png" --camera above
+expect 2 "$B/fapbank" render builtin -o "$T/x.png" --gl vulkan
 expect 2 "$B/fapbank" info --json -o - builtin
 
 status=0
