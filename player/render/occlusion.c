@@ -115,7 +115,8 @@ typedef struct sight {
     float *sum, *seen;
     float floor; /* brightness of the floor against the sky's: 1 where direction does not matter */
     float least; /* the least cosine that counts as facing */
-    float trust; /* weight of being seen before anything was: what faces little is known badly */
+    float trust; /* weight of being seen before anything was */
+    int grazing; /* whether what faces little is known well enough to count in full */
 } sight;
 
 /* A vertex counts as seen when it lies at most a hair behind what the picture shows there. */
@@ -128,7 +129,7 @@ static void add_seen(const cloud *c, vec3 from, mat4 view, const float *depth, c
         const float facing = glm_vec3_dot(c->normal + 3 * i, from);
         if (facing <= s->least)
             continue;
-        const float weight = facing * bright;
+        const float weight = facing * bright * (s->grazing ? 1 : facing);
         vec3 p;
         glm_mat4_mulv3(view, c->position + 3 * i, 1, p);
         const int x = (int)((p[0] * 0.5f + 0.5f) * SIZE), y = (int)((p[1] * 0.5f + 0.5f) * SIZE);
@@ -263,7 +264,9 @@ fap_err occlusion_measure(const gl_functions *gl, const fap_bank *bank, GLuint i
         open_mouth(bank, c.position);
         measure_bounds(&c);
         measure_normals(&c, mesh);
-        const sight sky = { .sum = sum, .seen = open, .floor = 0.30f, .least = 0.02f, .trust = 1e-6f };
+        const sight sky = {
+            .sum = sum, .seen = open, .floor = 0.30f, .least = 0.02f, .trust = 1e-6f, .grazing = 1
+        };
         const sight lamp = {
             .sum = sum + n, .seen = key, .floor = 1, .least = 0.05f, .trust = 0.1f * KEY_DIRECTIONS
         };

@@ -92,9 +92,9 @@ static const char studio_fragment_source[] =
 /* Three lamps and a room. A shoulder and the screen's curve are one: midtones stay, lights roll off. */
 #define LIGHTS \
     "const vec3 key_from = normalize(vec3(" LAMP_TEXT(KEY_FROM) ")), key_light = vec3(2.55, 2.33, 2.08);\n" \
-    "const vec3 fill_from = normalize(vec3(0.85, 0.12, 0.62)), fill_light = vec3(0.50, 0.53, 0.59);\n" \
-    "const vec3 rim_from = normalize(vec3(0.62, 0.45, -0.72)), rim_light = vec3(0.60, 0.58, 0.57);\n" \
-    "const vec3 sky = vec3(0.50, 0.54, 0.60), ground = vec3(0.27, 0.21, 0.18);\n" \
+    "const vec3 fill_from = normalize(vec3(0.80, 0.15, 0.58)), fill_light = vec3(0.66, 0.60, 0.57);\n" \
+    "const vec3 rim_from = normalize(vec3(0.62, 0.45, -0.72)), rim_light = vec3(0.95, 0.92, 0.90);\n" \
+    "const vec3 sky = vec3(0.50, 0.52, 0.55), ground = vec3(0.27, 0.21, 0.18);\n" \
     "vec3 on_screen(vec3 c) {\n" \
     "    vec3 s = min(sqrt(0.68 * c), 1.35);\n" \
     "    return s * (1 - 0.165 * s * s);\n" \
@@ -127,7 +127,7 @@ static const char face_fragment_source[] =
     "void main() {\n"
     "    vec3 n = facing.xyz * (1.5 - 0.5 * dot(facing.xyz, facing.xyz));\n" /* nearly of length 1 already */
     "    float open = tint.a, seen = lamps.x, gloss = facing.w;\n"
-    "    vec3 key = max(dot(n, key_from) * vec3(0.72, 0.85, 0.90) + vec3(0.28, 0.15, 0.10), 0);\n"
+    "    vec3 key = max(dot(n, key_from) * vec3(0.76, 0.84, 0.88) + vec3(0.24, 0.16, 0.12), 0);\n"
     "    vec3 through = seen * (vec3(1.25, 1.0, 0.94) + seen * vec3(-0.25, 0.0, 0.06));\n"
     "    float fill = max(0.86 * dot(n, fill_from) + 0.14, 0), rim = max(dot(n, rim_from), 0);\n"
     "    vec3 light = open * (mix(ground, sky, 0.5 + 0.5 * n.y) + rim * rim_light + fill * fill_light);\n"
@@ -172,7 +172,7 @@ static const char eye_fragment_source[] =
     "    float fibre = sin(41 * way.x + 9 * way.y) * sin(37 * way.y - 13 * way.x) + sin(23 * way.x - 29 * "
     "way.y);\n"
     "    float ring = smoothstep(0.42, 0.50, from_pupil) - smoothstep(0.50, 0.85, from_pupil);\n"
-    "    vec3 c = iris * (1.0 + 0.17 * fibre + 0.45 * ring + 0.75 * dot(across / limbus, vec2(0.45, "
+    "    vec3 c = iris * (0.85 + 0.16 * fibre + 0.45 * ring + 0.75 * dot(across / limbus, vec2(0.45, "
     "-0.55)));\n"
     "    c *= 1 - 0.85 * smoothstep(0.80, 1.0, from_pupil);\n"
     "    c *= smoothstep(0.35, 0.42, from_pupil);\n"
