@@ -209,7 +209,7 @@ $(B)/gen/decoder_size.h: scripts/decoder_size include/fap/decoder.h $(B)/libfap.
 	$(Q)size() { scripts/decoder_size $$1 $(filter-out -M%,$(FAP_CFLAGS)); }; \
 	    echo "enum { DECODER_SIZE = $$(size "$(CC)"), DECODER_SIZE_ARM64 = $$(size "$(ARM64_CC)") };" >$@
 $(B)/tests/bench/fba.o: $(B)/gen/decoder_size.h
-$(B)/bench: $(call obj,$(BENCH_SRC)) $(B)/libfap-render.a $(BASE)
+$(B)/bench: $(call obj,$(BENCH_SRC)) $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)
 bench: setup       ## the figures: one a line, and build/bench.json

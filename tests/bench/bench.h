@@ -34,6 +34,10 @@ double bench_offscreen_fps_default(void);
 double bench_render_overhead_ratio(void);
 double bench_startup_ms(void);
 
+/* The window's clock: how far picture and sound are apart, and how long a seek takes. */
+double bench_av_offset_ms(void);
+double bench_seek_ms(void);
+
 /* Frames of 58 FAPs that the .fap reader takes in a second. */
 double bench_ascii_parse_fps(void);
 double bench_ascii_write_fps(void);

@@ -25,6 +25,12 @@ const bench_figure bench_figures[] = {
     { "startup_ms", "ms", bench_startup_ms,
       "from starting fapplay to its end, with one picture of 512 x 512 written as PNG; default face",
       "OpenGL" },
+    { "av_offset_ms", "ms", bench_av_offset_ms,
+      "a minute of 66 FAPs moving at 25 Hz with its sound, SDL's dummy driver, 512 x 512 offscreen: the largest "
+      "difference between the sound's position and the time of the picture when it is there",
+      "SDL2, libsndfile or OpenGL" },
+    { "seek_ms", "ms", bench_seek_ms,
+      "the same, playing: from a seek until its picture is there; median of 51", "SDL2, libsndfile or OpenGL" },
     { "ascii_parse_fps", "frames/s", bench_ascii_parse_fps,
       "60,000 frames of 58 FAPs, from memory; at least 1000000", "" },
     { "ascii_write_fps", "frames/s", bench_ascii_write_fps, "the same frames, into memory", "" },
