@@ -15,7 +15,7 @@
 
 enum {
     DEFAULT_SIZE = 720,
-    WINDOW_WIDTH = 1120,
+    WINDOW_WIDTH = 1180,
     WINDOW_HEIGHT = 780,
     DEFAULT_SHEET_SIZE = 320,
     MAX_RATE_HZ = 1000,
@@ -390,7 +390,7 @@ static const char help_text[] =
     "  --blink                  blink now and then while the stream does not move the lids\n"
     "\n"
     "Pictures and time:\n"
-    "  --size WxH               pixels (720x720; of a sheet's pictures 320x320, of the window 1120x780); "
+    "  --size WxH               pixels (720x720; of a sheet's pictures 320x320, of the window 1180x780); "
     "even for "
     "films\n"
     "  --camera C               front, left, right or three-quarter (front)\n"

@@ -62,7 +62,7 @@ TEST(play_options, without_output_there_is_a_window)
     assert_null(o.sink);
     assert_float_equal(o.audio_offset_ms, -40, 0);
     assert_true(o.loop && o.paused && !o.fullscreen);
-    assert_int_equal(o.width, 1120);
+    assert_int_equal(o.width, 1180);
     takes(&o, "a.fap --size 640x480");
     assert_int_equal(o.height, 480);
 }

@@ -22,6 +22,10 @@ static fap_err grow(timeline *t)
     if (!frame)
         return FAP_E_NOMEM;
     t->frame = frame;
+    uint32_t *bits = realloc(t->bits, capacity * sizeof *bits);
+    if (!bits)
+        return FAP_E_NOMEM;
+    t->bits = bits;
     t->capacity = capacity;
     return FAP_OK;
 }
@@ -32,6 +36,7 @@ typedef struct append_target {
     const fap_fit *fit;
     char *where;
     uint32_t skipped; /* in front of the frame that comes next */
+    uint32_t bits;    /* of the plane that makes it */
     double rate_hz;
 } append_target;
 
@@ -48,6 +53,8 @@ static fap_err append(append_target *target, const fap_frame *frame)
     if (err)
         return err;
     t->frame[t->count] = *frame;
+    t->bits[t->count] = target->bits;
+    target->bits = 0;
     fap_derive_with(target->fit, &t->frame[t->count++]);
     return FAP_OK;
 }
@@ -58,6 +65,7 @@ static void take_plane(void *user, const fap_plane_info *plane, const fap_frame 
 
     (void)frame;
     target->skipped = plane->skipped;
+    target->bits = plane->bit_count;
     target->rate_hz = plane->rate_hz;
 }
 
@@ -71,7 +79,10 @@ static fap_err take_frame(void *user, const fap_frame *frame)
         fap_frame held = t->frame[t->count - 1];
         const int64_t last_us = frame->pts_us - timeline_time_us(1, target->rate_hz);
         held.pts_us = last_us > held.pts_us ? last_us : held.pts_us;
+        const uint32_t bits = target->bits;
+        target->bits = 0;
         const fap_err err = append(target, &held);
+        target->bits = bits;
         if (err)
             return err;
     }
@@ -106,6 +117,7 @@ fap_err timeline_load(timeline *t, const uint8_t *data, size_t size, const strea
 void timeline_free(timeline *t)
 {
     free(t->frame);
+    free(t->bits);
     *t = (timeline){ 0 };
 }
 
@@ -138,6 +150,17 @@ static size_t frame_at(const timeline *t, int64_t time_us)
             high = middle;
     }
     return low;
+}
+
+double timeline_kbit_s(const timeline *t, int64_t time_us)
+{
+    const int64_t second_us = 1000000, last_us = timeline_time_us(1, t->rate_hz);
+    const int64_t span_us = time_us + last_us < second_us ? time_us + last_us : second_us;
+    uint64_t bits = 0;
+
+    for (size_t i = frame_at(t, time_us) + 1; i-- > 0 && t->frame[i].pts_us > time_us - second_us;)
+        bits += t->bits[i];
+    return span_us > 0 ? (double)bits * 1e3 / (double)span_us : 0;
 }
 
 /* A FAP without a value in either frame has nothing to be interpolated to. */

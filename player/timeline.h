@@ -18,6 +18,7 @@ enum { TIMELINE_MAX_FRAMES = 1 << 19 }; /* 5.8 hours at 25 Hz, 200 MB */
 typedef struct timeline {
     fap_frame *frame; /* [count], times never go back; what could be derived is derived; where an .fba skips
                          frames, the one before stands a second time in front of the next */
+    uint32_t *bits;   /* [count]: that an .fba spent on each; 0 for text */
     size_t count, capacity;
     double rate_hz; /* the stream's own */
     int64_t end_us; /* when the last frame is over */
@@ -40,6 +41,8 @@ int64_t timeline_frame_count(const timeline *t, double rate_hz);
 int64_t timeline_count_frames(int64_t length_us, double rate_hz);
 /* When output frame @k begins, microseconds. */
 int64_t timeline_time_us(int64_t k, double rate_hz);
+/* Kbit/s of an .fba over the second before @time_us, or over what there is of it; 0 for text. */
+double timeline_kbit_s(const timeline *t, int64_t time_us);
 /*
  * The face at @time_us, which may lie outside the stream (the first or last frame then). Values are
  * interpolated linearly; states, viseme and expression are those of the stream's frame before. pts_us is

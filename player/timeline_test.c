@@ -164,3 +164,19 @@ TEST(timeline, empty_and_malformed_streams_say_why)
     assert_non_null(strstr(where, "line"));
     assert_null(t.frame);
 }
+
+TEST(timeline, knows_what_the_last_second_cost)
+{
+    timeline t;
+
+    load_three(&t);
+    assert_float_equal(timeline_kbit_s(&t, 80000), 0, 0);
+    t.bits[0] = 1000, t.bits[1] = 2000, t.bits[2] = 3000;
+    assert_float_equal(timeline_kbit_s(&t, 0), 25, 1e-9);
+    assert_float_equal(timeline_kbit_s(&t, 100000), 6000.0 / 140, 1e-9);
+    t.frame[1].pts_us = 900000;
+    t.frame[2].pts_us = 1500000;
+    assert_float_equal(timeline_kbit_s(&t, 1500000), 5, 1e-9);
+    assert_float_equal(timeline_kbit_s(&t, 9000000), 0, 0);
+    timeline_free(&t);
+}

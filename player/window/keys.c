@@ -47,7 +47,7 @@ const play_key play_keys[] = {
     { PLAY_KEY_F11, { PLAY_FULLSCREEN, 0, 0 }, 0, "F11", "full screen" },
     { '?', { PLAY_HELP, 0, 0 }, 0, "?", "these keys" },
     { 'q', { PLAY_QUIT, 0, 0 }, 0, "q, escape", "quit" },
-    { PLAY_KEY_ESCAPE, { PLAY_QUIT, 0, 0 }, 0, SAME_LINE },
+    { PLAY_KEY_ESCAPE, { PLAY_QUIT, 1, 0 }, 0, SAME_LINE },
     { 0 },
 };
 

@@ -27,7 +27,8 @@ typedef struct panel_view {
     const fap_frame *frame;
     const int32_t *farthest;           /* [FAP_COUNT + 1]: from 0 in this stream */
     const char *stream, *face, *sound; /* names; sound is "" where there is none */
-    double kbit_s, error_mm;           /* error: of the points before the residual, in this pose */
+    double kbit_s, kbit_s_now;         /* on average; over the last second, 0: not known */
+    double error_mm;                   /* of the points before the residual, in this pose */
     const char *message;               /* NULL: none */
     const panel_label *label;
     int label_count;

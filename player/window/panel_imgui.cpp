@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <unistd.h>
 
 #include <backends/imgui_impl_glfw.h>
@@ -237,7 +238,7 @@ int choose(const pass *d, const char *name, float width, const char *now, const 
         return -1;
     }
     for (int i = 0; i < count; i++)
-        if (ImGui::Selectable(choice[i]))
+        if (ImGui::Selectable(choice[i], !strcmp(choice[i], now)))
             made = i;
     ImGui::EndCombo();
     return made;
@@ -342,12 +343,14 @@ void right_side(pass *d, float from)
 
 void button_row(pass *d)
 {
-    char text[128];
+    char text[128], now[32] = "";
     const float y = ImGui::GetCursorPosY();
 
     transport(d);
-    snprintf(text, sizeof text, "frame %" PRId64 " / %" PRId64 "  \xc2\xb7  %g Hz  \xc2\xb7  %.3g kbit/s",
-             session_frame(d->s), d->s->frame_count, d->s->rate_hz, d->v->kbit_s);
+    if (d->v->kbit_s_now > 0)
+        snprintf(now, sizeof now, ", now %.2f", d->v->kbit_s_now);
+    snprintf(text, sizeof text, "frame %" PRId64 " / %" PRId64 "  \xc2\xb7  %g Hz  \xc2\xb7  %.3g kbit/s%s",
+             session_frame(d->s), d->s->frame_count, d->s->rate_hz, d->v->kbit_s, now);
     ImGui::AlignTextToFramePadding();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 6 * d->p->scale);
     ImGui::PushStyleColor(ImGuiCol_Text, quiet);

@@ -134,9 +134,9 @@ static void set_expression(session *s, double value)
     s->expression = number == s->expression ? 0 : number;
 }
 
-static void leave(session *s)
+static void leave(session *s, int help_first)
 {
-    if (s->help)
+    if (s->help && help_first)
         s->help = 0;
     else
         s->quit = 1;
@@ -199,7 +199,7 @@ void session_act(session *s, play_event e)
     case PLAY_EXPRESSION: set_expression(s, e.value); break;
     case PLAY_FULLSCREEN: s->fullscreen = !s->fullscreen; break;
     case PLAY_SCREENSHOT: s->screenshots++; break;
-    case PLAY_QUIT: leave(s); break;
+    case PLAY_QUIT: leave(s, e.value > 0); break;
     case PLAY_NOTHING:
     case PLAY_ACTION_COUNT: break;
     }

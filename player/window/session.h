@@ -40,7 +40,7 @@ typedef enum play_action {
     PLAY_EXPRESSION, /* value: of FAP 2, 1 joy to 6 surprise; 0, or the one that is shown: none */
     PLAY_FULLSCREEN,
     PLAY_SCREENSHOT,
-    PLAY_QUIT, /* closes the help first */
+    PLAY_QUIT, /* value: 1 closes the help instead where it is open */
     PLAY_ACTION_COUNT
 } play_action;
 

@@ -347,15 +347,16 @@ TEST(session, an_expression_is_put_on_and_taken_off)
     close_stage(&t);
 }
 
-TEST(session, quit_closes_the_help_first)
+TEST(session, escape_closes_the_help_first)
 {
     stage t;
 
     open_stage(&t);
     act(&t, PLAY_HELP, 0);
-    act(&t, PLAY_QUIT, 0);
+    act(&t, PLAY_QUIT, 1);
     assert_false(t.s.help);
     assert_false(t.s.quit);
+    act(&t, PLAY_HELP, 0);
     act(&t, PLAY_QUIT, 0);
     assert_true(t.s.quit);
     close_stage(&t);

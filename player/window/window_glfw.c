@@ -375,6 +375,7 @@ static void draw_panel(window *w)
         .face = p->report->face,
         .sound = name_of(p->sound),
         .kbit_s = p->scene.kbit_s,
+        .kbit_s_now = timeline_kbit_s(&p->scene.line, p->session.at_us),
         .error_mm = stats.target_error_mm,
         .message = playback_message(p),
         .label = w->label,

@@ -27,7 +27,7 @@ start() {
     player=$!
     window=$(timeout 30 xdotool search --sync --name 'take.fap - fapplay' | head -n 1)
     [ -n "$window" ] || fail "no window: $(cat "$T/err")"
-    xdotool windowfocus --sync "$window"
+    timeout 10 xdotool windowfocus --sync "$window"
     sleep 0.5
 }
 keys() { for key in "$@"; do xdotool key "$key"; sleep 0.1; done; }
@@ -37,6 +37,8 @@ stop() {
     local got=0
     kill -0 $player 2>/dev/null || fail "the window is gone: $(cat "$T/err")"
     xdotool key q
+    for _ in $(seq 100); do kill -0 $player 2>/dev/null || break; sleep 0.1; done
+    kill -9 $player 2>/dev/null && fail "q does not end it"
     wait $player || got=$?
     [ "$got" -eq "${1:-0}" ] || fail "exit $got: $(cat "$T/err")"
 }
@@ -130,7 +132,7 @@ keys space
 stop
 is clock '"sound"'
 is playing false
-between position_s 0.8 6.5
+between position_s 0.1 6.9
 between shown_frames 3 2000
 between av_offset_mean_ms 0 250
 start
@@ -148,7 +150,7 @@ sleep 0.7
 stop
 is clock '"monotonic"'
 [ "$(grep -c 'without sound' "$T/err")" -eq 1 ] || fail "not said once: $(cat "$T/err")"
-between position_s 0.3 6.5
+between position_s 0.05 6.9
 
 # Escape closes the help, then the window.
 start --paused
