@@ -2,7 +2,7 @@
 # A tool that is stopped leaves no temporary and the output as it was. (Ctrl-C is ignored in a script's background
 # jobs, and what is ignored stays so: TERM and HUP stand for it.)
 . tests/cli/lib.bash
-stream=tests/golden/blink/stream.fap
+stream=tests/assets/moments.fap
 
 # is_ignored SIGNAL: by whoever started the tests (nohup ignores HUP); a tool leaves it so.
 is_ignored() {
