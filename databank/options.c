@@ -166,7 +166,7 @@ int options_parse(options *opt, int argc, char **argv)
 {
     int option;
 
-    *opt = (options){ .components = 16, .sheet = { 8, 220, 0, CAMERA_FRONT } };
+    *opt = (options){ .components = 16, .sheet = { .columns = 8, .tile_px = 220, .camera = CAMERA_FRONT } };
     while ((option = getopt_long(argc, argv, "o:jqhV", long_options, NULL)) != -1)
         if (!take_option(opt, option))
             return 0;
