@@ -307,7 +307,7 @@ static const option_row rows[] = {
     { "output", set_output, "a file name" },
     { "fit", set_fit, "an interpolation table" },
     { "bank", set_bank, "a .fbank file or 'builtin'" },
-    { "blend", set_blend, "ga, zhu, qp, pca, rbf or fat" },
+    { "blend", set_blend, "ga, zhu, qp, pca, rbf, fat or bones" },
     { "regions", set_regions, "1, 2 or 4" },
     { "overlap", set_overlap, "a percentage from 0 to 50" },
     { "crossover", set_crossover, "midpoint, line or blx" },
@@ -377,7 +377,7 @@ static const char help_text[] =
     "The face:\n"
     "  --bank B.fbank           the face (the default face; the built-in one where there is none); or "
     "'builtin'\n"
-    "  --blend METHOD           ga, zhu, qp, pca, rbf or fat: how feature points become a face (ga)\n"
+    "  --blend METHOD           ga, zhu, qp, pca, rbf, fat or bones: how feature points become a face (ga)\n"
     "  --regions 1|2|4          of the face, each solved by itself by ga and zhu (1)\n"
     "  --overlap PCT            of the face on either side of a border, shared by both regions (20)\n"
     "  --crossover X            of the genetic algorithm: midpoint, line or blx (line)\n"

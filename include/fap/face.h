@@ -24,6 +24,7 @@ typedef enum fap_blend {
     FAP_BLEND_PCA, /**< principal components of the key models, coefficients within 3 standard deviations */
     FAP_BLEND_RBF, /**< no key models: a smooth field through the feature points (Hardy's multiquadrics) */
     FAP_BLEND_FAT, /**< face animation tables baked from the key models: see fap/fat.h */
+    FAP_BLEND_BONES, /**< no key models: planar bones between the feature points (Sanchez Lorenzo et al. 2003) */
 } fap_blend;
 
 /** The method's name ("ga") and a line about it, for options and their help. NULL: no such method. */

@@ -9,9 +9,10 @@
 #include "bank/ga.h"
 #include "base/lanes.h"
 
-const fap_blend_method *const fap_blend_methods[] = {
-    &fap_blend_zhu, &fap_blend_qp, &fap_blend_ga, &fap_blend_pca, &fap_blend_rbf, &fap_blend_fat, NULL
-};
+const fap_blend_method *const fap_blend_methods[] = { &fap_blend_zhu,   &fap_blend_qp,
+                                                      &fap_blend_ga,    &fap_blend_pca,
+                                                      &fap_blend_rbf,   &fap_blend_fat,
+                                                      &fap_blend_bones, NULL };
 
 const float fap_blend_most_beside = 300;
 

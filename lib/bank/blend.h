@@ -21,7 +21,7 @@ typedef struct fap_blend_method {
 } fap_blend_method;
 
 extern const fap_blend_method fap_blend_zhu, fap_blend_qp, fap_blend_ga, fap_blend_pca, fap_blend_rbf,
-    fap_blend_fat;
+    fap_blend_fat, fap_blend_bones;
 
 /* In the order of fap_blend, then NULL. */
 extern const fap_blend_method *const fap_blend_methods[];

@@ -324,7 +324,7 @@ TEST(blend, every_method_has_a_name_and_a_line_about_it)
 
     for (; fap_blend_name(count); count++)
         assert_true(fap_blend_summary(count)[0] != '\0');
-    assert_int_equal(count, FAP_BLEND_FAT + 1);
+    assert_int_equal(count, FAP_BLEND_BONES + 1);
     assert_string_equal(fap_blend_name(FAP_BLEND_GA), "ga");
     assert_string_equal(fap_blend_name(FAP_BLEND_ZHU), "zhu");
     assert_null(fap_blend_name(-1));

@@ -95,6 +95,7 @@ void bench_wave(fap_frame *frame, int t, int step);
 /* X(name, method, regions, residual): RMS in millimetres from feature points, the worst vertex, RMS from FAPs. */
 #define BENCH_FIDELITY(X)                                                                                    \
     X(rbf, FAP_BLEND_RBF, 1, 0)                                                                              \
+    X(bones, FAP_BLEND_BONES, 1, 0)                                                                          \
     X(zhu, FAP_BLEND_ZHU, 1, 0)                                                                              \
     X(zhu2, FAP_BLEND_ZHU, 2, 0)                                                                             \
     X(zhu4, FAP_BLEND_ZHU, 4, 0)                                                                             \
