@@ -12,6 +12,7 @@
 
 #include "common/tool.h"
 #include "player/options.h"
+#include "player/sinks/csv.h"
 
 enum {
     DEFAULT_SIZE = 720,
@@ -180,6 +181,12 @@ static int set_blink(play_options *o, const char *text)
     return 1;
 }
 
+static int set_csv(play_options *o, const char *text)
+{
+    o->csv = csv_kind_by_name(text);
+    return o->csv != NULL;
+}
+
 static int set_audio(play_options *o, const char *text)
 {
     o->audio = text;
@@ -317,6 +324,7 @@ static const option_row rows[] = {
     { "seed", set_seed, "a whole number, not negative" },
     { "no-residual", set_no_residual, NULL },
     { "blink", set_blink, NULL },
+    { "csv", set_csv, "points, vertices, weights or faps" },
     { "audio", set_audio, "a sound file" },
     { "size", set_size, "WxH, each from 1 to 8192 pixels" },
     { "fps", set_rate, "frames a second, from 0.001 to 1000" },
@@ -362,7 +370,9 @@ static const char help_text[] =
     "  NAME.png                 one picture: frame A of --frames, else the middle one\n"
     "  NAME_%04d.png            a picture of every frame\n"
     "  NAME.mp4, .webm, .mkv    a film (needs the program ffmpeg; mkv is lossless)\n"
-    "  NAME.csv, -              the feature points of every frame, in millimetres\n"
+    "  NAME.csv, -              a table of every frame, by default of the feature points in millimetres\n"
+    "      --csv KIND           points, vertices (millimetres), weights (of the key models), faps (as "
+    "shown)\n"
     "  null, NAME.null          nowhere: poses every frame and keeps nothing\n"
     "  --sheet N                N moments in one picture, -o NAME.png (- for standard output)\n"
     "  --golden DIR             compare with DIR/NNNN.png; what differs is left in the folder OUT\n"
@@ -413,6 +423,7 @@ static const char help_text[] =
     "  fapplay hello.fap --frames 40: --camera three-quarter -o frame40.png\n"
     "  fapplay hello.fap --sheet 12 -o sheet.png\n"
     "  fapplay hello.fap --fps 100 -o points.csv\n"
+    "  fapplay hello.fap --csv weights -o weights.csv\n"
     "  fapplay hello.fap --bank builtin --size 256x256 --frames 0:3 --golden tests/golden/hello\n";
 
 /* --- parsing --- */
@@ -519,6 +530,8 @@ static int choose_sink(play_options *o)
         return refuse("either --golden or", "--sheet");
     if (o->update && !o->golden)
         return refuse("--update needs", "--golden DIR");
+    if (!o->golden && !o->output && o->csv)
+        return refuse("--csv needs", "-o NAME.csv");
     if (!o->golden && !o->output)
         return o->moments ? refuse("--sheet needs", "-o NAME.png") : check_window(o);
     o->sink = o->golden ? &sink_golden : sink_by_name(o->output);
@@ -526,6 +539,8 @@ static int choose_sink(play_options *o)
         return refuse("--sheet needs -o NAME.png, not", o->output);
     if (o->moments)
         o->sink = &sink_sheet;
+    if (o->csv && o->sink && o->sink != &sink_csv)
+        return refuse("--csv needs -o NAME.csv, not", o->golden ? o->golden : o->output);
     return o->sink ? 1 : no_such_output(o);
 }
 

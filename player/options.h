@@ -17,7 +17,8 @@ typedef struct play_options {
     const char *bank;   /* NULL: find the default face; "builtin" */
     const char *fit;    /* NULL: the one beside the stream, if any */
     const char *output, *golden, *audio;
-    const play_sink *sink; /* NULL: the window */
+    const play_sink *sink;      /* NULL: the window */
+    const struct csv_kind *csv; /* --csv */
     fap_face_config face;
     const char *gl; /* how to draw without a window; NULL: what works */
     render_camera camera;

@@ -7,6 +7,7 @@
 
 #include "common/tool.h"
 #include "player/options.h"
+#include "player/sinks/csv.h"
 
 enum { MOST_WORDS = 32 };
 
@@ -230,4 +231,18 @@ TEST(play_options, wrong_combinations_are_refused)
     refuses("a.fap --no-such-option");
     refuses("a.fap -o");
     refuses("a.fap -x -o a.png");
+}
+
+TEST(play_options, tables_have_a_kind)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o a.csv --csv weights");
+    assert_string_equal(o.csv->name, "weights");
+    takes(&o, "a.fap -o - --csv faps");
+    assert_string_equal(o.csv->name, "faps");
+    refuses("a.fap -o a.csv --csv Weights");
+    refuses("a.fap -o a.png --csv weights");
+    refuses("a.fap --csv weights");
+    refuses("a.fap --golden dir --csv weights");
 }

@@ -127,6 +127,7 @@ static int open_sink(player *p)
         .from = frame_plan_at(&p->plan, 0),
         .count = p->plan.count,
         .bank = p->scene.bank,
+        .csv = o->csv,
     };
     p->sink_state = calloc(1, o->sink->state_size);
     if (!p->sink_state)
@@ -143,13 +144,18 @@ static void pose(player *p, int64_t i)
 static int show(player *p, int64_t i, const float (*point)[3])
 {
     const int64_t number = frame_plan_at(&p->plan, i);
-    const shown_frame shown = {
+    shown_frame shown = {
         .number = number,
         .time_s = (double)number / p->report->rate_hz,
         .point = point,
         .picture = p->renderer ? &p->picture : NULL,
     };
 
+    if (!p->renderer) {
+        shown.frame = &p->scene.frame;
+        shown.position = p->scene.position;
+        shown.weight = fap_face_weights(p->scene.face);
+    }
     if (!p->opt->sink->show(p->sink_state, &shown, &p->report->fault))
         return 0;
     p->report->shown_frames++;

@@ -1,30 +1,19 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/*
- * Where every feature point is in every frame: a header row, then frame, time and x, y, z of the 84 points,
- * millimetres in head axes of the room. Points that the face cannot carry have empty cells.
- */
+/* A table: a row of names, then frame after frame. What stands in it is the kind's business, csv_kinds.c. */
 #include <errno.h>
 #include <inttypes.h>
 #include <string.h>
 
 #include "common/file.h"
 #include "common/tool.h"
-#include "player/sinks/sink.h"
+#include "player/sinks/csv.h"
+#include "player/sinks/export_limit.h"
 
 typedef struct csv_state {
     out_file file;
     const sink_setup *setup;
+    const csv_kind *kind;
 } csv_state;
-
-static void put_header(FILE *out)
-{
-    fputs("frame,time_s", out);
-    for (int i = 0; i < FAP_POINT_COUNT; i++) {
-        const char *name = fap_point_get(i)->name;
-        fprintf(out, ",%s.x,%s.y,%s.z", name, name, name);
-    }
-    fputc('\n', out);
-}
 
 static int failed(const csv_state *s, fault *f)
 {
@@ -36,27 +25,25 @@ static int csv_open(void *state, const sink_setup *setup, fault *f)
     csv_state *s = state;
 
     s->setup = setup;
+    s->kind = setup->csv ? setup->csv : csv_kinds[0];
+    if (!export_fits(setup, s->kind->frame_size(setup->bank) * (double)setup->count, f))
+        return 0;
     if (out_file_open(&s->file, setup->output))
         return failed(s, f);
-    put_header(s->file.stream);
+    fputs("frame,time_s", s->file.stream);
+    s->kind->put_names(s->file.stream, setup->bank);
+    fputc('\n', s->file.stream);
     return 1;
 }
 
 static int csv_show(void *state, const shown_frame *shown, fault *f)
 {
     csv_state *s = state;
-    FILE *out = s->file.stream;
+    char head[64];
 
-    fprintf(out, "%" PRId64 ",%.6f", shown->number, shown->time_s);
-    for (int i = 0; i < FAP_POINT_COUNT; i++) {
-        const float *p = shown->point[i];
-        if (fap_bank_point_get(s->setup->bank, i)->present)
-            fprintf(out, ",%.4f,%.4f,%.4f", p[0], p[1], p[2]);
-        else
-            fputs(",,,", out);
-    }
-    fputc('\n', out);
-    return ferror(out) ? failed(s, f) : 1;
+    snprintf(head, sizeof head, "%" PRId64 ",%.6f", shown->number, shown->time_s);
+    s->kind->put_frame(s->file.stream, head, shown, s->setup->bank);
+    return ferror(s->file.stream) ? failed(s, f) : 1;
 }
 
 static int csv_finish(void *state, sink_result *result, fault *f)
@@ -74,7 +61,7 @@ static void csv_close(void *state)
 
 const play_sink sink_csv = {
     .name = "csv",
-    .summary = "NAME.csv, -         the feature points of every frame, millimetres",
+    .summary = "NAME.csv, -         points, vertices, weights or FAPs of every frame: --csv",
     .state_size = sizeof(csv_state),
     .open = csv_open,
     .show = csv_show,

@@ -13,6 +13,8 @@
 #include "player/fault.h"
 #include "player/render/image.h"
 
+struct csv_kind;
+
 /* What a sink is told once. Strings are borrowed and outlive it. */
 typedef struct sink_setup {
     const char *output;    /* behind -o; NULL: none */
@@ -23,6 +25,7 @@ typedef struct sink_setup {
     double rate_hz;      /* of the output */
     int64_t from, count; /* the first shown frame, and how many are */
     const fap_bank *bank;
+    const struct csv_kind *csv; /* what the columns of a table are */
 } sink_setup;
 
 /* One instant. */
@@ -31,6 +34,10 @@ typedef struct shown_frame {
     double time_s;
     const float (*point)[3]; /* [FAP_POINT_COUNT], head axes of the room, millimetres */
     const image *picture;    /* NULL unless the sink needs pictures */
+    /* Of the pose; NULL where the sink needs pictures: the next frame is posed while one is drawn. */
+    const fap_frame *frame;
+    const float *position; /* as fap_face_pose() fills it */
+    const float *weight;   /* [key count] */
 } shown_frame;
 
 /* What became of it, for the report. */
