@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See file.h. */
 #include <errno.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +8,7 @@
 #include <unistd.h>
 
 #include "common/file.h"
+#include "common/signals.h"
 
 static fap_err read_all(FILE *f, size_t max, uint8_t **data, size_t *size)
 {
@@ -61,30 +61,13 @@ static _Atomic(const char *) pending[16];
 
 enum { PENDING_COUNT = sizeof pending / sizeof *pending };
 
-/* SA_RESETHAND has put the default action back: raised again, the signal ends the program as it should. */
-static void remove_pending(int sig)
+static void remove_pending(void)
 {
     for (int i = 0; i < PENDING_COUNT; i++) {
         const char *const temp = atomic_load(&pending[i]);
         if (temp)
             unlink(temp);
     }
-    raise(sig);
-}
-
-static const int deadly[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE };
-
-enum { DEADLY_COUNT = sizeof deadly / sizeof *deadly };
-
-/* Signals that somebody ignores or handles already stay as they are. */
-static void catch_signals(void)
-{
-    const struct sigaction ours = { .sa_handler = remove_pending, .sa_flags = (int)SA_RESETHAND };
-    struct sigaction old;
-
-    for (int i = 0; i < DEADLY_COUNT; i++)
-        if (!sigaction(deadly[i], NULL, &old) && old.sa_handler == SIG_DFL)
-            sigaction(deadly[i], &ours, NULL);
 }
 
 static void replace_pending(const char *old, const char *now)
@@ -99,17 +82,14 @@ static void replace_pending(const char *old, const char *now)
 /* Signals wait from the moment the file exists until it is known to the handler. */
 static int make_temporary(char *name)
 {
-    sigset_t wait, before;
+    sigset_t before;
 
-    catch_signals();
-    sigemptyset(&wait);
-    for (int i = 0; i < DEADLY_COUNT; i++)
-        sigaddset(&wait, deadly[i]);
-    sigprocmask(SIG_BLOCK, &wait, &before);
+    signals_call(remove_pending);
+    signals_hold(&before);
     const int fd = mkstemp(name);
     if (fd >= 0)
         replace_pending(NULL, name);
-    sigprocmask(SIG_SETMASK, &before, NULL);
+    signals_release(&before);
     return fd;
 }
 
