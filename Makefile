@@ -37,6 +37,10 @@ SNDFILE := $(call has,sndfile)
 SDL2    := $(call has,sdl2)
 GLFW    := $(call has,glfw3)
 IMGUI   := $(if $(GLFW),$(if $(shell command -v $(CXX)),$(call has,imgui)))
+# Which libgpiod: v1 (1.6), v2, or none. The two APIs share no call, so each has its file.
+GPIO    := $(if $(call has,libgpiod),$(if $(shell $(PKG) --atleast-version=2 libgpiod && echo 1),v2,v1),none)
+GPIO_CFLAGS := $(if $(call has,libgpiod),$(shell $(PKG) --cflags libgpiod))
+GPIO_LIBS   := $(if $(call has,libgpiod),$(shell $(PKG) --libs libgpiod))
 JPEG    := $(call has,libjpeg)
 ZLIB    := $(call has,zlib)
 CMOCKA  := $(call has,cmocka)
@@ -47,18 +51,18 @@ TABLES   := $(wildcard fap_tables/*.csv)
 GEN      := $(TABLES:fap_tables/%.csv=$(B)/gen/%.h)
 LIB_SRC  := $(call notest,$(wildcard lib/base/*.c lib/param/*.c lib/codec/*.c lib/bank/*.c lib/dsp/*.c lib/dsp/*/*.c))
 STUDIO_SRC := $(call notest,$(wildcard lib/capture/*.c lib/shape/*.c))
-COMMON_SRC := $(call notest,$(wildcard common/*.c))
+COMMON_SRC := $(filter-out common/gpio/gpio_%,$(call notest,$(wildcard common/*.c common/*/*.c)))
 RENDER_SRC := $(call notest,$(wildcard player/render/*.c))
 ENC_SRC  := $(call notest,$(wildcard encoder/*.c encoder/*/*.c))
 PLAY_SRC := $(filter-out player/render/%,$(call notest,$(wildcard player/*.c player/*/*.c)))
 BANK_SRC := $(call notest,$(wildcard databank/*.c databank/*/*.c))
-TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c encoder/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c)
+TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c)
 obj       = $(patsubst %.c,$(B)/%.o,$(1))
 
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
 RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
-PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2) $(if $(IMGUI),$(shell $(PKG) --libs imgui)) $(if $(GLFW),-lglfw) $(if $(IMGUI),-lstdc++)
+PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2) $(GPIO_LIBS) $(if $(IMGUI),$(shell $(PKG) --libs imgui)) $(if $(GLFW),-lglfw) $(if $(IMGUI),-lstdc++)
 DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHAVE_EGL) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \
             $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2) $(if $(GLFW),-DHAVE_GLFW) $(if $(IMGUI),-DHAVE_IMGUI)
 
@@ -94,6 +98,8 @@ $(B)/%.o: %.cpp | $(GEN)
 $(B)/libfap.a: $(call obj,$(LIB_SRC))
 $(B)/libfap-studio.a: $(call obj,$(STUDIO_SRC))
 $(B)/libfap-common.a: $(call obj,$(COMMON_SRC))
+$(B)/libfap-gpio-$(GPIO).a: $(B)/common/gpio/gpio_$(GPIO).o
+$(B)/common/gpio/gpio_$(GPIO).o: FAP_CFLAGS += $(GPIO_CFLAGS)
 $(B)/libfap-render.a: $(call obj,$(RENDER_SRC))
 $(B)/%.a:
 	$(call SAY,AR)
@@ -103,12 +109,12 @@ $(B)/libfap.so.$(VERSION): $(call obj,$(LIB_SRC))
 	$(Q)$(CC) $(SAN) -shared -Wl,-soname,libfap.so.$(MAJOR) $(LDFLAGS) -o $@ $^ -lm
 
 # --- tools ---------------------------------------------------------------------------------------------------------
-BASE := $(B)/libfap-common.a $(B)/libfap-studio.a $(B)/libfap.a
+BASE := $(B)/libfap-common.a $(B)/libfap-gpio-$(GPIO).a $(B)/libfap-studio.a $(B)/libfap.a
 # Everything of a tool but main: the unit tests link it too.
 $(B)/libfap-enc.a: $(call obj,$(filter-out encoder/main.c,$(ENC_SRC)))
 $(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(SOUND_LIBS) $(STUDIO_LIBS) $(if $(PNG),-lpng) -lm
+	$(Q)$(LINK) $(SOUND_LIBS) $(STUDIO_LIBS) $(GPIO_LIBS) $(if $(PNG),-lpng) -lm
 $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC))) $(if $(IMGUI),$(B)/player/window/panel_imgui.o)
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
