@@ -35,6 +35,11 @@ static const char help[] =
     "      --smooth M        auto, none, or a cut-off frequency in Hz\n"
     "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
+    "      --trigger CHIP:LINE   do not read before an edge of this GPIO line: with - as TAKE, the start of "
+    "a "
+    "live\n"
+    "                        capture. :falling, :active-low, :pull-up, :debounce=5ms, :timeout=10s "
+    "(docs/gpio.md)\n"
     "\n"
     "Bits (.fba), whatever the input:\n"
     "      --quant Q         keep the coarseness: 0 to 31; 1. At 0 values are sent as they are; those that a "
@@ -70,6 +75,7 @@ static const char help[] =
     "  fapenc take.fap --quant 4 --intra 50 --look-ahead 0 -o take.fba\n"
     "  fapenc take.fba -o take.fap\n"
     "  fapenc inspect take.fba\n"
+    "  tracker | fapenc - --trigger gpiochip0:17:pull-up:falling -o take.fba\n"
     "\n"
     "Exit: 0 success, 1 bad data, 2 bad usage, 3 missing device or library. docs/markers.md says how to map "
     "markers.\n";
@@ -87,6 +93,7 @@ enum {
     OPT_FILL,
     OPT_START,
     OPT_END,
+    OPT_TRIGGER,
     OPT_QUANT,
     OPT_BITRATE,
     OPT_MAX_ERROR,
@@ -124,6 +131,7 @@ static const struct option long_options[] = {
     { "fill", required_argument, NULL, OPT_FILL },
     { "start", required_argument, NULL, OPT_START },
     { "end", required_argument, NULL, OPT_END },
+    { "trigger", required_argument, NULL, OPT_TRIGGER },
     { "quant", required_argument, NULL, OPT_QUANT },
     { "bitrate", required_argument, NULL, OPT_BITRATE },
     { "max-error", required_argument, NULL, OPT_MAX_ERROR },
@@ -255,6 +263,16 @@ static int parse_gender(options *opt, const char *text)
     return usage(opt);
 }
 
+static int parse_trigger(options *opt, const char *text)
+{
+    char why[FAP_ERROR_TEXT_SIZE];
+
+    if (gpio_spec_parse(&opt->trigger, text, GPIO_INPUT, why))
+        return 1;
+    tool_error("--trigger %s: %s", text, why);
+    return usage(opt);
+}
+
 static int parse_option(options *opt, int c, const char *arg)
 {
     switch (c) {
@@ -271,6 +289,7 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_FILL: return parse_fill(opt, arg);
     case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);
     case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
+    case OPT_TRIGGER: return parse_trigger(opt, arg);
     case OPT_QUANT:
         return set_rate(opt, "--quant", FAP_ENCODE_QUANT) &&
                whole_number(opt, "quant", arg, 0, 31, &opt->bits.quant);
@@ -321,6 +340,8 @@ static int check(options *opt)
         tool_error("--learn-fit and -o name the same file");
     else if (opt->planes && opt->command != COMMAND_INSPECT)
         tool_error("--planes belongs to fapenc inspect");
+    else if (opt->command == COMMAND_INSPECT && gpio_spec_given(&opt->trigger))
+        tool_error("--trigger starts a capture; fapenc inspect has none");
     else if (opt->capture.end_s > 0 && opt->capture.end_s <= opt->capture.start_s)
         tool_error("--end %g is not after --start %g", opt->capture.end_s, opt->capture.start_s);
     else

@@ -6,6 +6,8 @@
 #include <fap/encoder.h>
 #include <fap/studio/capture.h>
 
+#include "common/gpio/spec.h"
+
 typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT } command;
 
 typedef struct options {
@@ -20,6 +22,7 @@ typedef struct options {
     const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */
     const char *bank_path;   /* the face that errors are measured on; NULL: find one; "builtin" */
     const char *fit_path, *learn_path;
+    gpio_spec trigger; /* the line whose edge is waited for; no chip: none */
     int strict;
     int planes; /* inspect: a line each */
     int json;

@@ -51,7 +51,7 @@ int report_print(const options *opt, const run_report *rep, fap_err err)
 {
     if (err != FAP_OK) {
         tool_error("%s: %s", rep->path, rep->where);
-        return tool_exit_code(err);
+        return rep->no_device ? EXIT_MISSING : tool_exit_code(err);
     }
     report_success(opt, rep);
     return EXIT_OK;

@@ -9,7 +9,9 @@
 
 #include "common/fapu_file.h"
 #include "common/file.h"
+#include "common/gpio/trigger.h"
 #include "common/fit_file.h"
+#include "common/tool.h"
 #include "encoder/run.h"
 
 static const size_t max_input = (size_t)1 << 30, max_table = (size_t)1 << 20;
@@ -192,11 +194,30 @@ static fap_err encode_bytes(const options *opt, run_report *rep, const uint8_t *
     return encode_stream(opt, rep, data, size, where);
 }
 
+/* Nothing is read before the edge, so that the program behind a pipe may begin with it. */
+static fap_err await_trigger(const options *opt, run_report *rep)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    gpio_input in;
+    gpio_event edge;
+
+    if (!gpio_spec_given(&opt->trigger))
+        return FAP_OK;
+    const int opened = gpio_input_open(&in, &gpio_system, &opt->trigger, tool_name, where);
+    const int got = opened ? gpio_trigger_wait(&in, &opt->trigger, &edge, where) : -1;
+    gpio_input_close(&in);
+    rep->no_device = got < 0;
+    return got > 0 ? FAP_OK : fail(rep, FAP_E_IO, "--trigger", where);
+}
+
 fap_err run(const options *opt, run_report *rep)
 {
     uint8_t *data;
     size_t size;
 
+    const fap_err waited = await_trigger(opt, rep);
+    if (waited != FAP_OK)
+        return waited;
     errno = 0;
     const fap_err read = file_read(opt->input, max_input, &data, &size);
     if (read != FAP_OK)

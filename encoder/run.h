@@ -23,6 +23,7 @@ typedef struct run_report {
     fap_fit *fit;                           /* of --fit, or beside the input */
     char fit_found[4096];                   /* beside the input, "" where not */
     written_report written;
+    int no_device;    /* what went wrong is a device: exit 3 */
     int is_stream;    /* the input was a FAP file */
     int rate_assumed; /* the take's rate is --fps, for want of a better one */
 } run_report;

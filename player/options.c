@@ -290,6 +290,37 @@ static int set_fullscreen(play_options *o, const char *text)
     return 1;
 }
 
+/* --- lines of GPIO chips --- */
+
+static int set_trigger(play_options *o, const char *text)
+{
+    return gpio_spec_parse(&o->lines.trigger, text, GPIO_INPUT, o->why);
+}
+
+static int set_tally(play_options *o, const char *text)
+{
+    return gpio_spec_parse(&o->lines.tally, text, GPIO_OUTPUT, o->why);
+}
+
+static int set_frame_sync(play_options *o, const char *text)
+{
+    return gpio_spec_parse(&o->lines.frame_sync, text, GPIO_OUTPUT, o->why);
+}
+
+static int set_end_pulse(play_options *o, const char *text)
+{
+    return gpio_spec_parse(&o->lines.end_pulse, text, GPIO_PULSE, o->why);
+}
+
+static int set_button(play_options *o, const char *text)
+{
+    if (o->lines.button_count == LINES_MAX_BUTTONS) {
+        snprintf(o->why, sizeof o->why, "%d buttons are all there can be", LINES_MAX_BUTTONS);
+        return 0;
+    }
+    return line_button_parse(&o->lines.button[o->lines.button_count++], text, o->why);
+}
+
 static int set_json(play_options *o, const char *text)
 {
     (void)text;
@@ -339,6 +370,11 @@ static const option_row rows[] = {
     { "loop", set_loop, NULL },
     { "paused", set_paused, NULL },
     { "fullscreen", set_fullscreen, NULL },
+    { "trigger", set_trigger, "a line" },
+    { "tally", set_tally, "a line" },
+    { "frame-sync", set_frame_sync, "a line" },
+    { "end-pulse", set_end_pulse, "a line" },
+    { "button", set_button, "a line and what it does" },
     { "json", set_json, NULL },
     { "quiet", set_quiet, NULL },
 };
@@ -410,12 +446,21 @@ static const char help_text[] =
     "left out\n"
     "  --audio F                sound of the film; begins with the stream\n"
     "\n"
+    "Lines of a GPIO chip (docs/gpio.md), CHIP:LINE such as gpiochip0:17:\n"
+    "  --trigger CHIP:LINE      start at an edge; behind it :rising or :falling, :active-low, :pull-up or "
+    ":pull-down,\n"
+    "                           :debounce=5ms, :timeout=10s\n"
+    "  --tally CHIP:LINE        high exactly while playing\n"
+    "  --frame-sync CHIP:LINE   toggles at every shown frame\n"
+    "  --end-pulse CHIP:LINE[:MS]    a pulse at the end, 100 ms without MS\n"
+    "  --button CHIP:LINE=DO    of the window: pause, next, start, stop or expression:joy (to surprise)\n"
+    "\n"
     "  --json                   report on standard output, for programs\n"
     "  --quiet                  errors only\n"
     "  --help, --version\n"
     "\n"
-    "Exit codes: 0 success, 1 bad data or pictures that differ, 2 wrong usage, 3 missing library or "
-    "program.\n"
+    "Exit codes: 0 success, 1 bad data or pictures that differ, 2 wrong usage, 3 missing library, "
+    "program or device.\n"
     "\n"
     "Examples:\n"
     "  fapplay hello.fap --audio hello.wav\n"
@@ -424,6 +469,8 @@ static const char help_text[] =
     "  fapplay hello.fap --sheet 12 -o sheet.png\n"
     "  fapplay hello.fap --fps 100 -o points.csv\n"
     "  fapplay hello.fap --csv weights -o weights.csv\n"
+    "  fapplay hello.fap --trigger gpiochip0:17:pull-up:falling:debounce=5ms --tally gpiochip0:27 -o "
+    "hello.mp4\n"
     "  fapplay hello.fap --bank builtin --size 256x256 --frames 0:3 --golden tests/golden/hello\n";
 
 /* --- parsing --- */
@@ -471,7 +518,10 @@ static int take_option(play_options *o, int code, char **argv)
     const option_row *row = code == 'o' ? &rows[0] : &rows[code - CODE_ROW];
     if (row->set(o, optarg))
         return 1;
-    tool_error("--%s %s: expected %s", row->name, optarg, row->expects);
+    if (o->why[0])
+        tool_error("--%s %s: %s", row->name, optarg, o->why);
+    else
+        tool_error("--%s %s: expected %s", row->name, optarg, row->expects);
     return 0;
 }
 
@@ -521,6 +571,8 @@ static int check_offscreen(const play_options *o)
                       o->output ? o->output : o->golden);
     if (o->audio && o->sink != &sink_video)
         return refuse("--audio needs a film, not", o->output ? o->output : o->golden);
+    if (o->lines.button_count)
+        return refuse("--button is the window's, not of", o->output ? o->output : o->golden);
     return 1;
 }
 

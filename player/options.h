@@ -7,6 +7,7 @@
 
 #include <fap/face.h>
 
+#include "player/lines.h"
 #include "player/render/renderer.h"
 #include "player/sinks/sink.h"
 
@@ -30,8 +31,10 @@ typedef struct play_options {
     int update, tolerance;
     double audio_offset_ms;       /* of the window: how much later the sound begins than the stream */
     int loop, paused, fullscreen; /* how the window begins */
+    line_options lines;
     int json, quiet;
-    int exit_status; /* when parsing says not to run */
+    char why[FAP_ERROR_TEXT_SIZE]; /* the last value was refused; "": for not being what is expected */
+    int exit_status;               /* when parsing says not to run */
 } play_options;
 
 /* 1: run. 0: leave with exit_status; --help, --version or what is wrong has been printed. */

@@ -154,6 +154,24 @@ TEST(play_options, help_and_version_are_no_errors)
     assert_int_equal(o.exit_status, EXIT_OK);
 }
 
+TEST(play_options, lines_arrive)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o null --trigger 0:1:falling --tally 0:2 --frame-sync 0:SYNC --end-pulse 0:4:20");
+    assert_string_equal(o.lines.trigger.line, "1");
+    assert_int_equal(o.lines.trigger.edge, GPIO_FALLING);
+    assert_string_equal(o.lines.tally.line, "2");
+    assert_string_equal(o.lines.frame_sync.line, "SYNC");
+    assert_int_equal(o.lines.end_pulse.pulse_ns, 20000000);
+    refuses("a.fap -o null --trigger 0");
+    refuses("a.fap -o null --tally 0:1:pull-up");
+    refuses("a.fap -o null --frame-sync 0:1:rising");
+    refuses("a.fap -o null --end-pulse 0:1:0");
+    refuses("a.fap -o null --button 0:1=dance");
+    refuses("a.fap -o null --button 0:1=pause");
+}
+
 TEST(play_options, wrong_values_are_refused)
 {
     static const char *const wrong[] = {

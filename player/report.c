@@ -105,6 +105,8 @@ static void put_json(const play_report *r, const play_options *o)
         json_number(&j, "sound_s", r->sound_s);
     json_number(&j, "worst_blend_error_mm", r->error_mm);
     json_number(&j, "worst_error_mm", r->residual_mm);
+    if (r->triggers)
+        json_number(&j, "trigger_ms", r->trigger_ms);
     if (o->golden)
         put_golden(&j, &r->result);
     if (!o->sink && r->window.session.frame_count)
@@ -115,6 +117,8 @@ static void put_json(const play_report *r, const play_options *o)
 
 static void say_success(const play_report *r, const play_options *o)
 {
+    if (r->triggers)
+        tool_note("the first frame was shown %.1f ms after the edge", r->trigger_ms);
     if (!o->sink)
         return; /* a window speaks for itself */
     if (o->golden && o->update)

@@ -29,6 +29,8 @@ typedef struct play_report {
     int64_t stream_frames, shown_frames;
     double stream_rate_hz, stream_s, rate_hz, sound_s;
     double error_mm, residual_mm; /* largest RMS of a shown frame: before, after the residual */
+    int triggers;                 /* edges that started something */
+    double trigger_ms;            /* from the last one to the first frame shown */
     sink_result result;
     window_report window; /* where o->sink is NULL */
 } play_report;

@@ -8,6 +8,7 @@
 
 #include "common/tool.h"
 #include "player/audio/sound_file.h"
+#include "player/lines.h"
 #include "player/plan.h"
 #include "player/render/renderer.h"
 #include "player/run.h"
@@ -23,6 +24,7 @@ typedef struct player {
     frame_plan plan;
     sink_setup setup;
     void *sink_state;
+    gpio_lines lines;
 } player;
 
 /* --- what goes in --- */
@@ -141,6 +143,15 @@ static void pose(player *p, int64_t i)
     scene_pose(&p->scene, timeline_time_us(number, p->report->rate_hz), 0, p->report);
 }
 
+/* The first frame is ready before the trigger is waited for: from the edge on it only has to be shown. */
+static int await_trigger(player *p)
+{
+    if (!gpio_lines_await(&p->lines))
+        return 0;
+    gpio_on_start(&p->lines);
+    return 1;
+}
+
 static int show(player *p, int64_t i, const float (*point)[3])
 {
     const int64_t number = frame_plan_at(&p->plan, i);
@@ -156,8 +167,11 @@ static int show(player *p, int64_t i, const float (*point)[3])
         shown.position = p->scene.position;
         shown.weight = fap_face_weights(p->scene.face);
     }
+    if (i == 0 && !await_trigger(p))
+        return 0;
     if (!p->opt->sink->show(p->sink_state, &shown, &p->report->fault))
         return 0;
+    gpio_on_frame(&p->lines);
     p->report->shown_frames++;
     return 1;
 }
@@ -213,11 +227,15 @@ static int show_all(player *p)
     progress_start(&bar, p->opt->sink->name, p->plan.count);
     const int ok = p->renderer ? show_pictures(p, &bar) : show_poses(p, &bar);
     progress_end(&bar);
+    gpio_on_stop(&p->lines);
+    if (ok)
+        gpio_on_end(&p->lines);
     return ok;
 }
 
 static void close_all(player *p)
 {
+    gpio_lines_close(&p->lines);
     if (p->sink_state)
         p->opt->sink->close(p->sink_state);
     free(p->sink_state);
@@ -234,8 +252,8 @@ void play_run(const play_options *o, play_report *r)
         window_run(o, r);
         return;
     }
-    if (load_scene(&p) && check_sound(&p) && make_plan(&p) && open_renderer(&p) && open_sink(&p) &&
-        show_all(&p))
+    if (gpio_lines_open(&p.lines, &gpio_system, &o->lines, r) && load_scene(&p) && check_sound(&p) &&
+        make_plan(&p) && open_renderer(&p) && open_sink(&p) && show_all(&p))
         o->sink->finish(p.sink_state, &r->result, &r->fault);
     close_all(&p);
 }

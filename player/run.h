@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* stream -> timeline -> face -> sink. Prints nothing but a progress bar. */
+/* stream -> timeline -> face -> sink. Prints nothing but a progress bar, and that it waits for a trigger. */
 #ifndef PLAYER_RUN_H
 #define PLAYER_RUN_H
 

@@ -20,3 +20,19 @@ says 'no.fap'
 expect 1 "$B/fapbank" info "$T/no.fbank"
 says 'no.fbank'
 [ ! -e "$T/x.fap" ] && [ ! -e "$T/x.png" ] || fail "a failed run left an output"
+
+# Lines of GPIO chips: what can be said without one.
+stream=tests/golden/blink/stream.fap
+for option in --trigger --tally --frame-sync --end-pulse; do
+    expect 2 "$B/fapplay" $stream -o null $option gpiochip0
+    says 'CHIP:LINE'
+    expect 3 "$B/fapplay" $stream -o null $option /dev/nochip:1
+    says "$option /dev/nochip:1: (no such GPIO chip|built without)"
+done
+expect 2 "$B/fapplay" $stream -o null --tally 0:1:pull-up
+says "'pull-up'"
+expect 2 "$B/fapenc" $stream -o "$T/x.fap" --trigger 0:1:timeout=0
+says "'timeout=0'"
+expect 3 "$B/fapenc" $stream -o "$T/x.fap" --trigger /dev/nochip:1
+says 'no such GPIO chip|built without'
+[ ! -e "$T/x.fap" ] || fail "a capture that never started left an output"
