@@ -38,6 +38,9 @@ double bench_startup_ms(void);
 double bench_av_offset_ms(void);
 double bench_seek_ms(void);
 
+/* Milliseconds from an edge of a GPIO line to the first frame. */
+double bench_gpio_trigger_ms(void);
+
 /* Frames of 58 FAPs that the .fap reader takes in a second. */
 double bench_ascii_parse_fps(void);
 double bench_ascii_write_fps(void);
