@@ -122,13 +122,17 @@ static void start_session(playback *p)
     session_act(s, (play_event){ PLAY_BLEND, p->opt->face.blend, 0 });
     s->loop = p->opt->loop;
     s->fullscreen = p->opt->fullscreen;
-    p->starts = !p->opt->paused;
+    p->starts = !p->opt->paused && !p->lines.trigger.driver;
+    if (p->lines.trigger.driver)
+        playback_say(p, "waits for the trigger at %.60s:%.60s", p->opt->lines.trigger.chip,
+                     p->opt->lines.trigger.line);
 }
 
 int playback_open(playback *p, const play_options *o, play_report *r)
 {
     *p = (playback){ .opt = o, .report = r, .face = o->face };
-    if (!scene_load_stream(&p->scene, o->stream, o->fit, r) ||
+    if (!gpio_lines_open(&p->lines, &gpio_system, &o->lines, r) ||
+        !scene_load_stream(&p->scene, o->stream, o->fit, r) ||
         !scene_load_bank(&p->scene, o->bank, &p->face, 1, r) || !silence(p) ||
         (o->audio && !load_sound(p, o->audio)))
         return 0;
@@ -150,6 +154,7 @@ static void complete_report(playback *p)
 void playback_close(playback *p)
 {
     complete_report(p);
+    gpio_lines_close(&p->lines);
     play_clock_close(&p->clock);
     scene_free(&p->scene);
 }
@@ -171,12 +176,45 @@ static void exchange_face(playback *p)
     say_fault(p);
 }
 
+/* --- lines --- */
+
+int playback_listens(const playback *p)
+{
+    return p->lines.trigger.driver || p->opt->lines.button_count > 0;
+}
+
+static void obey_lines(playback *p)
+{
+    play_event event;
+
+    while (gpio_poll_action(&p->lines, &event))
+        session_act(&p->session, event);
+}
+
+static void tell_lines(playback *p)
+{
+    const session *s = &p->session;
+
+    if (s->playing && !p->lines.playing)
+        gpio_on_start(&p->lines);
+    if (s->loops != p->told_loops)
+        gpio_on_end(&p->lines);
+    if (!s->playing && p->lines.playing) {
+        gpio_on_stop(&p->lines);
+        if (s->at_us >= s->length_us)
+            gpio_on_end(&p->lines);
+    }
+    p->told_loops = s->loops;
+}
+
 int playback_advance(playback *p)
 {
     session *s = &p->session;
 
+    obey_lines(p);
     p->ticked_us = monotonic_us();
     session_tick(s, (int64_t)p->ahead_us);
+    tell_lines(p);
     if (s->blend != p->face.blend)
         exchange_face(p);
     if (!p->stale && s->at_us == p->posed_us && s->expression == p->posed_expression)
@@ -212,6 +250,8 @@ void playback_seen(playback *p)
 {
     const session *s = &p->session;
 
+    if (p->lines.playing)
+        gpio_on_frame(&p->lines);
     if (p->starts)
         session_act(&p->session, (play_event){ PLAY_START, 0, 0 });
     else if (s->playing) {

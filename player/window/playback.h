@@ -6,6 +6,7 @@
 #ifndef PLAYER_WINDOW_PLAYBACK_H
 #define PLAYER_WINDOW_PLAYBACK_H
 
+#include "player/lines.h"
 #include "player/scene.h"
 #include "player/window/session.h"
 
@@ -17,6 +18,8 @@ typedef struct playback {
     scene scene;
     play_clock clock;
     session session;
+    gpio_lines lines;
+    int64_t told_loops;                                         /* of which the lines know */
     fap_face_config face;                                       /* the method in force */
     char stream[PLAYBACK_PATH_SIZE], sound[PLAYBACK_PATH_SIZE]; /* paths; sound is "" where there is none */
     unsigned bank_number;                                       /* changes with the bank */
@@ -33,7 +36,7 @@ typedef struct playback {
     double offset_sum_ms;
 } playback;
 
-/* Loads what the options name. 0: the report's fault says why not. */
+/* Loads what the options name; with a trigger it waits for that. 0: the report's fault says why not. */
 int playback_open(playback *p, const play_options *o, play_report *r);
 void playback_close(playback *p); /* also after a failed open; completes the report */
 
@@ -41,6 +44,9 @@ void playback_close(playback *p); /* also after a failed open; completes the rep
 int playback_advance(playback *p);
 /* The picture of the last advance is seen now. */
 void playback_seen(playback *p);
+
+/* Somebody outside may start it at any time: look often. */
+int playback_listens(const playback *p);
 
 /* Files that were dropped: streams, faces and sounds. A message says what became of them. */
 void playback_drop(playback *p, int count, const char *const *paths);

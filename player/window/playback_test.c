@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include "player/window/playback.h"
+#include "common/tool.h"
+#include "tests/fake_gpio.h"
 #include "tests/test.h"
 
 static char stream[] = "tests/golden/blink/stream.fap";
@@ -64,6 +66,90 @@ TEST(playback, begins_when_the_first_picture_is_seen)
     assert_false(t.p.session.playing);
     playback_seen(&t.p);
     assert_true(t.p.session.playing);
+    close_stage(&t);
+}
+
+/* Trigger 1, tally 2, frame sync 3, end pulse 4, a button for joy 5. */
+static void open_stage_with_lines(stage *t)
+{
+    line_options *o = &t->opt.lines;
+    char why[FAP_ERROR_TEXT_SIZE];
+
+    open_stage(t);
+    fake_gpio_reset();
+    assert_true(gpio_spec_parse(&o->trigger, "fake:1", GPIO_INPUT, why));
+    assert_true(gpio_spec_parse(&o->tally, "fake:2", GPIO_OUTPUT, why));
+    assert_true(gpio_spec_parse(&o->frame_sync, "fake:3", GPIO_OUTPUT, why));
+    assert_true(gpio_spec_parse(&o->end_pulse, "fake:4:50ms", GPIO_PULSE, why));
+    assert_true(line_button_parse(&o->button[o->button_count++], "fake:5=expression:joy", why));
+    assert_true(gpio_lines_open(&t->p.lines, &fake_gpio, o, &t->report));
+}
+
+static void edge(int line)
+{
+    fake_gpio_change(line, fake_gpio_time_us() + 1, 1);
+    fake_gpio_pass(30000);
+    fake_gpio_change(line, fake_gpio_time_us() + 1, 0);
+    fake_gpio_pass(30000);
+}
+
+TEST(playback, an_edge_starts_it_and_lines_tell_that_it_plays)
+{
+    stage t;
+
+    open_stage_with_lines(&t);
+    assert_true(playback_listens(&t.p));
+    playback_advance(&t.p);
+    playback_seen(&t.p);
+    assert_int_equal(fake_gpio_level(2), 0);
+    assert_int_equal(fake_gpio_level(3), 0); /* what is seen while nothing plays is no frame */
+    edge(1);
+    playback_advance(&t.p);
+    assert_true(t.p.session.playing);
+    assert_int_equal(fake_gpio_level(2), 1);
+    playback_seen(&t.p);
+    assert_int_equal(fake_gpio_level(3), 1);
+    assert_int_equal(t.report.triggers, 1);
+    session_act(&t.p.session, (play_event){ PLAY_PAUSE, 0, 0 });
+    playback_advance(&t.p);
+    assert_int_equal(fake_gpio_level(2), 0);
+    assert_int_equal(fake_gpio_level(4), 0); /* a pause is not the end */
+    close_stage(&t);
+    assert_false(fake_gpio_is_open(2));
+}
+
+TEST(playback, a_button_makes_a_face)
+{
+    stage t;
+
+    open_stage_with_lines(&t);
+    edge(5);
+    playback_advance(&t.p);
+    assert_int_equal(t.p.scene.frame.expression.select1, 1);
+    assert_false(t.p.session.playing);
+    close_stage(&t);
+}
+
+TEST(playback, the_end_and_every_new_round_give_a_pulse)
+{
+    stage t;
+
+    open_stage_with_lines(&t);
+    session_act(&t.p.session, (play_event){ PLAY_START, 0, 0 });
+    playback_advance(&t.p);
+    session_act(&t.p.session, (play_event){ PLAY_SEEK, 1e6, 0 });
+    t.p.session.loop = 1;
+    playback_advance(&t.p);
+    assert_int_equal(fake_gpio_level(4), 1);
+    assert_int_equal(fake_gpio_level(2), 1);
+    fake_gpio_pass(60000);
+    playback_advance(&t.p);
+    assert_int_equal(fake_gpio_level(4), 0);
+    t.p.session.loop = 0;
+    session_act(&t.p.session, (play_event){ PLAY_SEEK, 1e6, 0 });
+    playback_advance(&t.p);
+    assert_int_equal(fake_gpio_level(4), 1);
+    assert_int_equal(fake_gpio_level(2), 0);
     close_stage(&t);
 }
 

@@ -28,7 +28,7 @@ static void no_window(play_report *r, const char *why)
 #include "player/window/playback.h"
 
 enum { MOST_EVENTS = 16, LEAST_SIDE = 64, SETTLING = 3 };
-static const double idle_s = 0.02, least_frame_s = 1.0 / 125;
+static const double idle_s = 0.02, listening_s = 0.001, least_frame_s = 1.0 / 125;
 
 typedef struct window {
     playback play;
@@ -475,7 +475,7 @@ static int turn(window *w)
     if (p->session.playing || w->redraw)
         glfwPollEvents();
     else
-        glfwWaitEventsTimeout(idle_s);
+        glfwWaitEventsTimeout(playback_listens(p) ? listening_s : idle_s);
     if (said != (playback_message(p) != NULL))
         w->redraw = SETTLING;
     if (!playback_advance(p) && !w->redraw)
