@@ -103,8 +103,6 @@ int gpio_lines_open(gpio_lines *l, const gpio_driver *driver, const line_options
         !open_output(l, &l->frame_sync, "frame-sync", &opt->frame_sync) ||
         !open_output(l, &l->end_pulse, "end-pulse", &opt->end_pulse) || !open_buttons(l))
         return 0;
-    if (l->trigger.driver && opt->trigger.timeout_ns > 0)
-        l->give_up_ns = driver->now_ns() + opt->trigger.timeout_ns;
     return 1;
 }
 
@@ -112,7 +110,7 @@ int gpio_lines_open(gpio_lines *l, const gpio_driver *driver, const line_options
 
 static int give_up(gpio_lines *l, int exit_status, const char *where)
 {
-    l->give_up_ns = INT64_MAX;
+    l->waits = 0;
     return fault_set(&l->report->fault, exit_status, "--trigger %s", where);
 }
 
@@ -127,28 +125,69 @@ int gpio_lines_await(gpio_lines *l)
     if (got <= 0)
         return give_up(l, got ? EXIT_MISSING : EXIT_DATA, where);
     l->edge_ns = edge.time_ns;
-    l->give_up_ns = INT64_MAX;
+    return 1;
+}
+
+void gpio_lines_arm(gpio_lines *l)
+{
+    const gpio_spec *spec = l->driver ? &l->opt->trigger : NULL;
+
+    for (int i = 0; l->driver && i < l->opt->button_count; i++)
+        gpio_input_drain(&l->button[i]);
+    if (!l->trigger.driver)
+        return;
+    gpio_trigger_arm(&l->trigger, spec);
+    l->waits = 1;
+    l->give_up_ns = spec->timeout_ns > 0 ? l->driver->now_ns() + spec->timeout_ns : INT64_MAX;
+}
+
+static void note_failure(gpio_lines *l, const char *option, const gpio_spec *spec)
+{
+    play_report_note(l->report, "--%s %s:%s failed and was given up", option, spec->chip, spec->line);
+}
+
+/* 1: an edge. */
+static int poll_input(gpio_lines *l, gpio_input *in, const char *option, const gpio_spec *spec,
+                      gpio_event *edge)
+{
+    const int got = in->driver ? gpio_input_wait(in, 0, edge) : 0;
+
+    if (got >= 0)
+        return got;
+    note_failure(l, option, spec);
+    gpio_input_close(in);
+    return 0;
+}
+
+/* 1, with a fault: what has never started will not start any more. */
+static int trigger_is_lost(gpio_lines *l)
+{
+    const gpio_spec *spec = &l->opt->trigger;
+    char where[FAP_ERROR_TEXT_SIZE];
+
+    if (!l->waits || (l->trigger.driver && l->driver->now_ns() < l->give_up_ns))
+        return 0;
+    if (l->trigger.driver)
+        gpio_trigger_timeout_text(spec, where);
+    else
+        gpio_trigger_failure_text(spec, where);
+    give_up(l, l->trigger.driver ? EXIT_DATA : EXIT_MISSING, where);
     return 1;
 }
 
 static int poll_trigger(gpio_lines *l, play_event *event)
 {
-    char where[FAP_ERROR_TEXT_SIZE];
     gpio_event edge;
 
-    if (gpio_input_wait(&l->trigger, 0, &edge) > 0) {
+    if (poll_input(l, &l->trigger, "trigger", &l->opt->trigger, &edge)) {
         if (!l->playing)
             l->edge_ns = edge.time_ns;
-        l->give_up_ns = INT64_MAX;
+        l->waits = 0;
         *event = (play_event){ .action = PLAY_START };
         return 1;
     }
-    if (l->driver->now_ns() < l->give_up_ns)
-        return 0;
-    gpio_trigger_timeout_text(&l->opt->trigger, where);
-    give_up(l, EXIT_DATA, where);
     *event = (play_event){ .action = PLAY_QUIT };
-    return 1;
+    return trigger_is_lost(l);
 }
 
 static void end_pulse_in_time(gpio_lines *l)
@@ -161,11 +200,13 @@ int gpio_poll_action(gpio_lines *l, play_event *event)
 {
     gpio_event edge;
 
+    if (!l->driver)
+        return 0;
     end_pulse_in_time(l);
-    if (l->trigger.driver && poll_trigger(l, event))
+    if (poll_trigger(l, event))
         return 1;
-    for (int i = 0; l->opt && i < l->opt->button_count; i++)
-        if (l->button[i].driver && gpio_input_wait(&l->button[i], 0, &edge) > 0) {
+    for (int i = 0; i < l->opt->button_count; i++)
+        if (poll_input(l, &l->button[i], "button", &l->opt->button[i].spec, &edge)) {
             *event = l->opt->button[i].event;
             return 1;
         }
@@ -177,6 +218,7 @@ int gpio_poll_action(gpio_lines *l, play_event *event)
 void gpio_on_start(gpio_lines *l)
 {
     l->playing = 1;
+    l->waits = 0;
     gpio_output_set(&l->tally, 1);
 }
 
@@ -209,8 +251,7 @@ void gpio_on_end(gpio_lines *l)
 static void close_output(gpio_lines *l, gpio_output *out, const char *option, const gpio_spec *spec)
 {
     if (out->failed)
-        play_report_note(l->report, "--%s %s:%s failed while playing and was given up", option, spec->chip,
-                         spec->line);
+        note_failure(l, option, spec);
     gpio_output_close(out);
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * The GPIO lines of a show: what starts it, what tells others of it, and buttons. Without a line asked for, everything here
- * does nothing, so that whoever plays calls it without asking. Nothing waits but gpio_lines_await() and the close.
+ * does nothing, so that whoever plays calls it without asking. Nothing waits but gpio_lines_await() and the close. A line that
+ * fails while it plays is given up with a note.
  */
 #ifndef PLAYER_LINES_H
 #define PLAYER_LINES_H
@@ -36,7 +37,8 @@ typedef struct gpio_lines {
     gpio_input trigger, button[LINES_MAX_BUTTONS];
     gpio_output tally, frame_sync, end_pulse;
     int playing;
-    int64_t give_up_ns; /* when the first edge is late; INT64_MAX: never */
+    int waits;          /* for the first edge: nothing has started yet */
+    int64_t give_up_ns; /* when that is late; INT64_MAX: never */
     int64_t edge_ns;    /* of a trigger whose first frame was not shown yet; -1: none */
     int64_t pulse_ns;   /* when the pulse that is out ends */
 } gpio_lines;
@@ -46,10 +48,19 @@ int gpio_lines_open(gpio_lines *l, const gpio_driver *driver, const line_options
                     struct play_report *report);
 /* Waits for the trigger. 1: it came, or there is none. */
 int gpio_lines_await(gpio_lines *l);
-/* What came in, if anything: call until 0. A trigger that stays away for its timeout becomes a fault and PLAY_QUIT. */
+
+/*
+ * For those who do something else meanwhile. From here on edges count, and the trigger's timeout runs until something starts;
+ * what came before is forgotten.
+ */
+void gpio_lines_arm(gpio_lines *l);
+/*
+ * What came in, if anything: call until 0. A trigger that fails or stays away for its timeout before anything started becomes a
+ * fault and PLAY_QUIT.
+ */
 int gpio_poll_action(gpio_lines *l, play_event *event);
 
-/* It plays from here; the next frame is the first. */
+/* It plays from here, whoever started it; the next frame is the first. */
 void gpio_on_start(gpio_lines *l);
 /* A frame has been shown. */
 void gpio_on_frame(gpio_lines *l);

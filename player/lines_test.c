@@ -166,6 +166,7 @@ TEST(play_lines, a_window_starts_at_every_edge)
     show *s = show_with("fake:1:timeout=1s");
 
     open_lines(s);
+    gpio_lines_arm(&s->lines);
     assert_int_equal(polled(s).action, PLAY_NOTHING);
     fake_gpio_change(1, 10000, 1);
     fake_gpio_pass(12000);
@@ -192,12 +193,70 @@ TEST(play_lines, a_window_gives_up_a_trigger_once)
     show *s = show_with("fake:1:timeout=1s");
 
     open_lines(s);
-    fake_gpio_pass(1000000);
+    fake_gpio_pass(5000000); /* loading takes its time, and that is not the trigger's */
+    gpio_lines_arm(&s->lines);
+    fake_gpio_pass(999000);
+    assert_int_equal(polled(s).action, PLAY_NOTHING);
+    fake_gpio_pass(1000);
     assert_int_equal(polled(s).action, PLAY_QUIT);
     assert_int_equal(s->report.fault.exit_status, EXIT_DATA);
     assert_int_equal(polled(s).action, PLAY_NOTHING);
     gpio_lines_close(&s->lines);
     tool_quiet = 0;
+}
+
+TEST(play_lines, a_start_by_hand_ends_the_waiting)
+{
+    show *s = show_with("fake:1:timeout=1s");
+
+    open_lines(s);
+    gpio_lines_arm(&s->lines);
+    gpio_on_start(&s->lines);
+    fake_gpio_pass(2000000);
+    assert_int_equal(polled(s).action, PLAY_NOTHING);
+    fake_gpio_change(1, 3000000, 1); /* and the trigger is still one */
+    fake_gpio_pass(1000000);
+    assert_int_equal(polled(s).action, PLAY_START);
+    assert_int_equal(s->report.fault.exit_status, EXIT_OK);
+    gpio_lines_close(&s->lines);
+    tool_quiet = 0;
+}
+
+TEST(play_lines, what_came_before_it_was_ready_is_forgotten)
+{
+    show *s = show_with("fake:1");
+
+    ask_button(s, "fake:5=pause");
+    open_lines(s);
+    fake_gpio_change(1, 10000, 1);
+    fake_gpio_change(5, 20000, 1);
+    fake_gpio_pass(100000);
+    gpio_lines_arm(&s->lines);
+    assert_int_equal(polled(s).action, PLAY_NOTHING);
+    gpio_lines_close(&s->lines);
+    tool_quiet = 0;
+}
+
+TEST(play_lines, a_trigger_that_fails_ends_the_waiting_but_not_the_show)
+{
+    for (int started = 0; started < 2; started++) {
+        show *s = show_with("fake:1");
+
+        ask_button(s, "fake:5=pause");
+        open_lines(s);
+        gpio_lines_arm(&s->lines);
+        if (started)
+            gpio_on_start(&s->lines);
+        fake_gpio_break();
+        assert_int_equal(polled(s).action, started ? PLAY_NOTHING : PLAY_QUIT);
+        assert_int_equal(polled(s).action, PLAY_NOTHING);
+        assert_int_equal(s->report.fault.exit_status, started ? EXIT_OK : EXIT_MISSING);
+        assert_int_equal(s->report.note_count, 2); /* once for each line, however often it is looked at */
+        assert_non_null(strstr(s->report.note[1], "--button fake:5"));
+        assert_false(fake_gpio_is_open(1));
+        gpio_lines_close(&s->lines);
+        tool_quiet = 0;
+    }
 }
 
 TEST(play_lines, buttons_do_what_they_are_for_and_do_not_bounce)

@@ -146,6 +146,8 @@ static int fake_wait(void *line, int64_t timeout_ns)
     const fake_line *l = line;
     const int64_t deadline = chip.now_ns + timeout_ns;
 
+    if (chip.broken)
+        return -1;
     while (!l->queued && next_change_ns() <= deadline)
         go_to(next_change_ns());
     if (!l->queued)

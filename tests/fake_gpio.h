@@ -16,7 +16,7 @@ extern const gpio_driver fake_gpio, fake_gpio_debouncing;
 void fake_gpio_reset(void);
 /* What opening any line gives from now on. */
 void fake_gpio_refuse(gpio_fault fault, const char *detail);
-/* Outputs fail from now on. */
+/* Every line fails from now on. */
 void fake_gpio_break(void);
 /* The world sets @line to @level at @at_us, which is not before what was said so far. */
 void fake_gpio_change(int line, int64_t at_us, int level);

@@ -11,7 +11,10 @@
  * bytes).
  */
 int gpio_trigger_wait(gpio_input *in, const gpio_spec *spec, gpio_event *event, char *where);
+/* The first half of it, for those who look again and again instead of waiting. */
+void gpio_trigger_arm(gpio_input *in, const gpio_spec *spec);
 /* "no rising edge within 10 s" */
 void gpio_trigger_timeout_text(const gpio_spec *spec, char *where);
+void gpio_trigger_failure_text(const gpio_spec *spec, char *where);
 
 #endif

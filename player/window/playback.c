@@ -183,46 +183,57 @@ int playback_listens(const playback *p)
     return p->lines.trigger.driver || p->opt->lines.button_count > 0;
 }
 
-static void obey_lines(playback *p)
+int playback_obey(playback *p)
 {
+    enum { MOST_AT_ONCE = 64 }; /* a line that never rests leaves time for pictures */
     play_event event;
+    int count = 0;
 
-    while (gpio_poll_action(&p->lines, &event))
+    while (p->armed && count < MOST_AT_ONCE && gpio_poll_action(&p->lines, &event)) {
         session_act(&p->session, event);
+        count++;
+    }
+    return count;
 }
 
+/*
+ * Others are told what has been seen: called once a picture is, or when there is none to wait for. The last frame is one that
+ * plays, so it comes before the stop; and what began and ended between two pictures did both.
+ */
 static void tell_lines(playback *p)
 {
     const session *s = &p->session;
+    const int ended = s->ends != p->told_ends;
 
-    if (s->playing && !p->lines.playing)
+    if ((s->playing || ended) && !p->lines.playing)
         gpio_on_start(&p->lines);
-    if (s->loops != p->told_loops)
-        gpio_on_end(&p->lines);
-    if (!s->playing && p->lines.playing) {
+    if (p->fresh && p->lines.playing)
+        gpio_on_frame(&p->lines);
+    if (!s->playing && p->lines.playing)
         gpio_on_stop(&p->lines);
-        if (s->at_us >= s->length_us)
-            gpio_on_end(&p->lines);
-    }
-    p->told_loops = s->loops;
+    if (ended)
+        gpio_on_end(&p->lines);
+    p->told_ends = s->ends;
+    p->fresh = 0;
 }
 
 int playback_advance(playback *p)
 {
     session *s = &p->session;
 
-    obey_lines(p);
     p->ticked_us = monotonic_us();
     session_tick(s, (int64_t)p->ahead_us);
-    tell_lines(p);
     if (s->blend != p->face.blend)
         exchange_face(p);
-    if (!p->stale && s->at_us == p->posed_us && s->expression == p->posed_expression)
+    if (!p->stale && s->at_us == p->posed_us && s->expression == p->posed_expression) {
+        tell_lines(p);
         return 0;
+    }
     scene_pose(&p->scene, s->at_us, s->expression, p->report);
     p->posed_us = s->at_us;
     p->posed_expression = s->expression;
     p->stale = 0;
+    p->fresh = 1;
     p->report->shown_frames++;
     return 1;
 }
@@ -250,8 +261,6 @@ void playback_seen(playback *p)
 {
     const session *s = &p->session;
 
-    if (p->lines.playing)
-        gpio_on_frame(&p->lines);
     if (p->starts)
         session_act(&p->session, (play_event){ PLAY_START, 0, 0 });
     else if (s->playing) {
@@ -260,6 +269,10 @@ void playback_seen(playback *p)
         learn_delay(p, (double)(monotonic_us() - p->ticked_us));
     }
     p->starts = 0;
+    tell_lines(p);
+    if (!p->armed)
+        gpio_lines_arm(&p->lines);
+    p->armed = 1;
 }
 
 /* --- what is dropped on it --- */

@@ -19,7 +19,8 @@ typedef struct playback {
     play_clock clock;
     session session;
     gpio_lines lines;
-    int64_t told_loops;                                         /* of which the lines know */
+    int64_t told_ends;                                          /* of which the lines know */
+    int armed;                                                  /* they are listened to */
     fap_face_config face;                                       /* the method in force */
     char stream[PLAYBACK_PATH_SIZE], sound[PLAYBACK_PATH_SIZE]; /* paths; sound is "" where there is none */
     unsigned bank_number;                                       /* changes with the bank */
@@ -28,6 +29,7 @@ typedef struct playback {
 
     int starts; /* when the first picture is seen: sound does not wait for shaders */
     int stale;  /* the pose is of before */
+    int fresh;  /* nobody has seen it yet */
     int64_t posed_us;
     int posed_expression;
     int64_t ticked_us; /* when the clock was asked for the picture that is being drawn */
@@ -40,9 +42,11 @@ typedef struct playback {
 int playback_open(playback *p, const play_options *o, play_report *r);
 void playback_close(playback *p); /* also after a failed open; completes the report */
 
+/* What came in by lines since the last time; nothing before the first picture is seen. How many actions that were. */
+int playback_obey(playback *p);
 /* Asks the clock, exchanges the face where another method was chosen, poses. 1: there is something new to see. */
 int playback_advance(playback *p);
-/* The picture of the last advance is seen now. */
+/* The picture of the last advance is seen now; the first one arms the lines. */
 void playback_seen(playback *p);
 
 /* Somebody outside may start it at any time: look often. */

@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "player/window/playback.h"
 #include "common/tool.h"
+#include "player/window/playback.h"
 #include "tests/fake_gpio.h"
 #include "tests/test.h"
 
@@ -83,6 +83,7 @@ static void open_stage_with_lines(stage *t)
     assert_true(gpio_spec_parse(&o->end_pulse, "fake:4:50ms", GPIO_PULSE, why));
     assert_true(line_button_parse(&o->button[o->button_count++], "fake:5=expression:joy", why));
     assert_true(gpio_lines_open(&t->p.lines, &fake_gpio, o, &t->report));
+    tool_quiet = 1;
 }
 
 static void edge(int line)
@@ -93,29 +94,47 @@ static void edge(int line)
     fake_gpio_pass(30000);
 }
 
-TEST(playback, an_edge_starts_it_and_lines_tell_that_it_plays)
+/* A turn of the window. */
+static void look(stage *t)
+{
+    playback_obey(&t->p);
+    if (playback_advance(&t->p))
+        playback_seen(&t->p);
+}
+
+TEST(playback, an_edge_starts_it_and_lines_tell_what_was_seen)
 {
     stage t;
 
     open_stage_with_lines(&t);
     assert_true(playback_listens(&t.p));
-    playback_advance(&t.p);
-    playback_seen(&t.p);
+    edge(1); /* before there is anything to see */
+    look(&t);
+    look(&t);
+    assert_false(t.p.session.playing);
     assert_int_equal(fake_gpio_level(2), 0);
     assert_int_equal(fake_gpio_level(3), 0); /* what is seen while nothing plays is no frame */
     edge(1);
-    playback_advance(&t.p);
+    assert_int_equal(playback_obey(&t.p), 1);
     assert_true(t.p.session.playing);
-    assert_int_equal(fake_gpio_level(2), 1);
+    t.p.ahead_us = 50000; /* so that the next picture is another */
+    assert_true(playback_advance(&t.p));
+    assert_int_equal(fake_gpio_level(2), 0);
     playback_seen(&t.p);
+    assert_int_equal(fake_gpio_level(2), 1);
     assert_int_equal(fake_gpio_level(3), 1);
     assert_int_equal(t.report.triggers, 1);
+    playback_seen(&t.p); /* drawn again because a panel moved */
+    assert_int_equal(fake_gpio_level(3), 1);
     session_act(&t.p.session, (play_event){ PLAY_PAUSE, 0, 0 });
-    playback_advance(&t.p);
+    look(&t);
+    look(&t);
     assert_int_equal(fake_gpio_level(2), 0);
     assert_int_equal(fake_gpio_level(4), 0); /* a pause is not the end */
     close_stage(&t);
-    assert_false(fake_gpio_is_open(2));
+    for (int i = 0; i < FAKE_LINES; i++)
+        assert_false(fake_gpio_is_open(i));
+    tool_quiet = 0;
 }
 
 TEST(playback, a_button_makes_a_face)
@@ -123,11 +142,16 @@ TEST(playback, a_button_makes_a_face)
     stage t;
 
     open_stage_with_lines(&t);
+    look(&t);
     edge(5);
-    playback_advance(&t.p);
+    look(&t);
     assert_int_equal(t.p.scene.frame.expression.select1, 1);
     assert_false(t.p.session.playing);
+    edge(5);
+    look(&t);
+    assert_int_equal(t.p.session.expression, 0);
     close_stage(&t);
+    tool_quiet = 0;
 }
 
 TEST(playback, the_end_and_every_new_round_give_a_pulse)
@@ -135,22 +159,61 @@ TEST(playback, the_end_and_every_new_round_give_a_pulse)
     stage t;
 
     open_stage_with_lines(&t);
+    look(&t);
     session_act(&t.p.session, (play_event){ PLAY_START, 0, 0 });
-    playback_advance(&t.p);
+    t.p.ahead_us = 50000;
+    look(&t);
     session_act(&t.p.session, (play_event){ PLAY_SEEK, 1e6, 0 });
     t.p.session.loop = 1;
-    playback_advance(&t.p);
+    look(&t);
     assert_int_equal(fake_gpio_level(4), 1);
     assert_int_equal(fake_gpio_level(2), 1);
     fake_gpio_pass(60000);
-    playback_advance(&t.p);
+    look(&t);
     assert_int_equal(fake_gpio_level(4), 0);
     t.p.session.loop = 0;
     session_act(&t.p.session, (play_event){ PLAY_SEEK, 1e6, 0 });
-    playback_advance(&t.p);
+    const int toggles = fake_gpio_sets(3);
+    assert_true(playback_advance(&t.p));
+    assert_int_equal(fake_gpio_level(2), 1); /* until the last frame has been seen */
+    playback_seen(&t.p);
+    assert_int_equal(fake_gpio_sets(3), toggles + 1);
     assert_int_equal(fake_gpio_level(4), 1);
     assert_int_equal(fake_gpio_level(2), 0);
     close_stage(&t);
+    tool_quiet = 0;
+}
+
+TEST(playback, a_trigger_that_never_comes_ends_it)
+{
+    stage t;
+
+    open_stage_with_lines(&t);
+    t.opt.lines.trigger.timeout_ns = 1000000000;
+    look(&t);
+    fake_gpio_pass(1000000);
+    look(&t);
+    assert_true(t.p.session.quit);
+    assert_int_equal(t.report.fault.exit_status, EXIT_DATA);
+    playback_close(&t.p);
+    tool_quiet = 0;
+}
+
+TEST(playback, what_ends_between_two_pictures_has_played)
+{
+    stage t;
+
+    open_stage_with_lines(&t);
+    look(&t);
+    session_act(&t.p.session, (play_event){ PLAY_START, 0, 0 });
+    session_act(&t.p.session, (play_event){ PLAY_SEEK, 1e6, 0 });
+    look(&t);
+    assert_false(t.p.session.playing);
+    assert_int_equal(fake_gpio_sets(2), 2);
+    assert_int_equal(fake_gpio_sets(3), 1);
+    assert_int_equal(fake_gpio_level(4), 1);
+    close_stage(&t);
+    tool_quiet = 0;
 }
 
 TEST(playback, another_method_poses_the_same_moment)

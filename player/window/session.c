@@ -211,11 +211,13 @@ void session_act(session *s, play_event e)
 static void wrap(session *s, int64_t at_us)
 {
     s->loops++;
+    s->ends++;
     go_to(s, at_us % s->length_us);
 }
 
 static void end(session *s)
 {
+    s->ends++;
     set_playing(s, 0);
     go_to(s, s->length_us);
 }

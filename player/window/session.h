@@ -65,6 +65,7 @@ typedef struct session {
 
     int64_t late_frames; /* of the stream, never shown because the time went past them */
     int64_t loops;       /* how often it began again */
+    int64_t ends;        /* how often the end came, with a loop or without */
     int screenshots;     /* asked for and not yet taken; the window counts down */
     int quit;
 } session;

@@ -476,8 +476,10 @@ static int turn(window *w)
         glfwPollEvents();
     else
         glfwWaitEventsTimeout(playback_listens(p) ? listening_s : idle_s);
-    if (said != (playback_message(p) != NULL))
+    if (playback_obey(p) || said != (playback_message(p) != NULL))
         w->redraw = SETTLING;
+    if (p->session.quit)
+        return 1;
     if (!playback_advance(p) && !w->redraw)
         return 1;
     w->redraw -= w->redraw > 0;
