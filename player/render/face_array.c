@@ -201,12 +201,12 @@ fap_err face_array_send(const face_array *face, const gl_functions *gl, const fa
     return FAP_OK;
 }
 
-void face_array_draw(const face_array *face, const gl_functions *gl, face_range from, face_range to)
+void face_array_draw(const face_array *face, const gl_functions *gl, face_range range)
 {
-    const size_t skipped = (size_t)face->first[from] * sizeof(uint32_t);
+    const size_t skipped = (size_t)face->first[range] * sizeof(uint32_t);
 
     gl->BindVertexArray(face->array);
-    gl->DrawElements(GL_TRIANGLES, face->first[to] - face->first[from], GL_UNSIGNED_INT,
+    gl->DrawElements(GL_TRIANGLES, face->first[range + 1] - face->first[range], GL_UNSIGNED_INT,
                      (const void *)skipped);
 }
 #endif

@@ -25,7 +25,6 @@ void face_array_delete(face_array *face, const gl_functions *gl);
 /* A pose, as fap_face_pose() gives it. FAP_E_NOMEM: the context has no room. */
 fap_err face_array_send(const face_array *face, const gl_functions *gl, const fap_mesh *mesh,
                         const float *position, const float *normal);
-/* Ranges @from up to, without, @to. */
-void face_array_draw(const face_array *face, const gl_functions *gl, face_range from, face_range to);
+void face_array_draw(const face_array *face, const gl_functions *gl, face_range range);
 
 #endif

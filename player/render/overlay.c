@@ -43,20 +43,22 @@ void overlay_delete(overlay *o, const gl_functions *gl)
 }
 
 /* Lines lie in the triangles they border on: a step towards the eye makes them win. */
-void overlay_draw_wire(const overlay *o, const gl_functions *gl, const face_array *face, const render_lens *c)
+void overlay_draw_wire(const overlay *o, const gl_functions *gl, const face_array *face,
+                       const render_lens *lens)
 {
     gl->UseProgram(o->wire_program);
-    gl->UniformMatrix4fv(o->wire_view, 1, GL_FALSE, c->view_projection[0]);
+    gl->UniformMatrix4fv(o->wire_view, 1, GL_FALSE, lens->view_projection[0]);
     gl->Enable(GL_POLYGON_OFFSET_LINE);
     gl->PolygonOffset(-1, -2);
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    face_array_draw(face, gl, RANGE_SKIN, RANGE_COUNT);
+    for (int range = 0; range < RANGE_COUNT; range++)
+        face_array_draw(face, gl, (face_range)range);
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     gl->Disable(GL_POLYGON_OFFSET_LINE);
 }
 
 void overlay_draw_marks(const overlay *o, const gl_functions *gl, const render_mark *mark, int count,
-                        const render_lens *c, float size_px)
+                        const render_lens *lens, float size_px)
 {
     /* Share of the distance to the eye that a mark on the skin is drawn nearer, so that its disc is not half inside. */
     const float nearer = 0.008f, behind_alpha = 0.3f;
@@ -65,10 +67,10 @@ void overlay_draw_marks(const overlay *o, const gl_functions *gl, const render_m
     gl->BindBuffer(GL_ARRAY_BUFFER, o->mark_buffer);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)count * sizeof *mark), mark, GL_STREAM_DRAW);
     gl->UseProgram(o->mark_program);
-    gl->UniformMatrix4fv(o->mark_view, 1, GL_FALSE, c->view_projection[0]);
+    gl->UniformMatrix4fv(o->mark_view, 1, GL_FALSE, lens->view_projection[0]);
     gl->Uniform1f(o->mark_size, size_px);
     gl->Uniform1f(o->mark_nearer, nearer);
-    gl->Uniform3fv(o->mark_eye, 1, c->eye);
+    gl->Uniform3fv(o->mark_eye, 1, lens->eye);
     gl->Enable(GL_PROGRAM_POINT_SIZE);
     gl->Enable(GL_BLEND);
     gl->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -19,8 +19,8 @@ void overlay_delete(overlay *o, const gl_functions *gl);
 
 /* Both draw into what is bound, tested against the face's depth. */
 void overlay_draw_wire(const overlay *o, const gl_functions *gl, const face_array *face,
-                       const render_lens *c);
+                       const render_lens *lens);
 void overlay_draw_marks(const overlay *o, const gl_functions *gl, const render_mark *mark, int count,
-                        const render_lens *c, float size_px);
+                        const render_lens *lens, float size_px);
 
 #endif

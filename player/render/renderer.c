@@ -7,32 +7,17 @@
 #include "player/render/camera.h"
 #include "player/render/context.h"
 #include "player/render/gl_objects.h"
-#include "player/render/lamps.h"
 #include "player/render/overlay.h"
+#include "player/render/portrait.h"
 #include "player/render/renderer.h"
 #include "player/render/shaders.h"
+#include "player/render/studio.h"
 
 /*
  * Pictures are drawn this many times as wide and high and then averaged. In software that takes two thirds of the time of
  * 4 samples a pixel, and smooths highlights and painted edges too (measured: Mesa 22.3, 52,000 triangles, 640 x 480).
  */
 enum { OVERSAMPLING = 2 };
-
-/* Programs and where their uniforms are. */
-typedef struct skin_program {
-    GLuint program;
-    GLint view_projection, view, half_key;
-} skin_program;
-
-typedef struct eye_program {
-    GLuint program;
-    GLint view_projection, view, gaze, lid, iris, white, limbus, size;
-} eye_program;
-
-typedef struct studio_program {
-    GLuint program;
-    GLint place, first_on_top, drawn;
-} studio_program;
 
 struct renderer {
     gl_context own; /* zeroed where the context is the caller's */
@@ -45,51 +30,21 @@ struct renderer {
     int begun;         /* a picture waits to be read back */
     int scale;         /* of what is drawn: OVERSAMPLING, or 1 where the context has no room for it */
     gl_target drawn, resolved;
-    studio_program studio;
-    GLuint empty_array; /* core profiles want one even where no vertices are read */
-    skin_program skin;
-    eye_program eyes;
     face_array face;
+    portrait portrait;
     overlay over;
+    studio studio;
 };
 
 /* --- making and unmaking --- */
 
-static void find_skin_uniforms(skin_program *p, const gl_functions *gl)
-{
-    p->view_projection = gl->GetUniformLocation(p->program, "view_projection");
-    p->view = gl->GetUniformLocation(p->program, "view");
-    p->half_key = gl->GetUniformLocation(p->program, "half_key");
-}
-
-static void find_eye_uniforms(eye_program *p, const gl_functions *gl)
-{
-    p->view_projection = gl->GetUniformLocation(p->program, "view_projection");
-    p->view = gl->GetUniformLocation(p->program, "view");
-    p->gaze = gl->GetUniformLocation(p->program, "gaze");
-    p->lid = gl->GetUniformLocation(p->program, "lid");
-    p->iris = gl->GetUniformLocation(p->program, "iris");
-    p->white = gl->GetUniformLocation(p->program, "white");
-    p->limbus = gl->GetUniformLocation(p->program, "limbus");
-    p->size = gl->GetUniformLocation(p->program, "size");
-}
-
 static fap_err make_programs(renderer *r, char *where)
 {
-    const gl_functions *gl = &r->gl;
+    fap_err err = portrait_make(&r->portrait, &r->gl, where);
 
-    r->studio.program = gl_program_make(gl, studio_vertex_source, studio_fragment_source, where);
-    r->skin.program = gl_program_make(gl, face_vertex_source, face_fragment_source, where);
-    r->eyes.program = gl_program_make(gl, eye_vertex_source, eye_fragment_source, where);
-    if (!r->studio.program || !r->skin.program || !r->eyes.program)
-        return FAP_E_UNSUPPORTED;
-    r->studio.place = gl->GetUniformLocation(r->studio.program, "place");
-    r->studio.first_on_top = gl->GetUniformLocation(r->studio.program, "first_on_top");
-    r->studio.drawn = gl->GetUniformLocation(r->studio.program, "drawn");
-    gl->GenVertexArrays(1, &r->empty_array);
-    find_skin_uniforms(&r->skin, gl);
-    find_eye_uniforms(&r->eyes, gl);
-    return overlay_make(&r->over, gl, where);
+    if (!err)
+        err = overlay_make(&r->over, &r->gl, where);
+    return err ? err : studio_make(&r->studio, &r->gl, where);
 }
 
 static fap_err make_face(renderer *r, char *where)
@@ -195,10 +150,8 @@ static void delete_scene(renderer *r)
     delete_targets(r);
     face_array_delete(&r->face, &r->gl);
     overlay_delete(&r->over, &r->gl);
-    r->gl.DeleteProgram(r->skin.program);
-    r->gl.DeleteProgram(r->eyes.program);
-    r->gl.DeleteProgram(r->studio.program);
-    r->gl.DeleteVertexArrays(1, &r->empty_array);
+    portrait_delete(&r->portrait, &r->gl);
+    studio_delete(&r->studio, &r->gl);
 }
 
 void renderer_destroy(renderer **r)
@@ -255,64 +208,10 @@ const char *renderer_gl_name(int i)
 
 static render_lens lens_of(const renderer *r, const render_view *view)
 {
-    render_lens c;
+    render_lens lens;
 
-    camera_place(&c, &r->head, view, (float)r->width / (float)r->height);
-    return c;
-}
-
-/* The lens is long and the head far: one direction to the eye serves all of it. */
-static void direction_to_eye(const renderer *r, const render_lens *lens, vec3 out)
-{
-    glm_vec3_sub((float *)lens->eye, (float *)r->head.centre, out);
-    glm_vec3_normalize(out);
-}
-
-static void use_skin(const renderer *r, const render_lens *lens, vec3 view)
-{
-    const gl_functions *gl = &r->gl;
-    vec3 key = { KEY_FROM }, half_key;
-
-    glm_vec3_normalize(key);
-    glm_vec3_add(key, view, half_key);
-    glm_vec3_normalize(half_key);
-    gl->UseProgram(r->skin.program);
-    gl->UniformMatrix4fv(r->skin.view_projection, 1, GL_FALSE, lens->view_projection[0]);
-    gl->Uniform3fv(r->skin.view, 1, view);
-    gl->Uniform3fv(r->skin.half_key, 1, half_key);
-}
-
-static void draw_eye(const renderer *r, const render_scene *scene, int right)
-{
-    const gl_functions *gl = &r->gl;
-    const eye_look *eye = &r->face.eye[right];
-    vec3 gaze, lid;
-
-    eye_look_pose(eye, fap_bank_mesh(r->bank), scene->position, scene->normal, gaze, lid);
-    gl->Uniform3fv(r->eyes.gaze, 1, gaze);
-    gl->Uniform3fv(r->eyes.lid, 1, lid);
-    gl->Uniform3fv(r->eyes.iris, 1, eye->iris);
-    gl->Uniform3fv(r->eyes.white, 1, eye->white);
-    gl->Uniform1f(r->eyes.limbus, eye->limbus);
-    gl->Uniform1f(r->eyes.size, fmaxf(1, eye->radius_mm));
-    face_array_draw(&r->face, gl, RANGE_EYE_LEFT + (unsigned)right, RANGE_EYE_LEFT + (unsigned)right + 1);
-}
-
-static void draw_face(const renderer *r, const render_scene *scene, const render_lens *lens)
-{
-    const gl_functions *gl = &r->gl;
-    vec3 view;
-
-    direction_to_eye(r, lens, view);
-    gl->UseProgram(r->eyes.program);
-    gl->UniformMatrix4fv(r->eyes.view_projection, 1, GL_FALSE, lens->view_projection[0]);
-    gl->Uniform3fv(r->eyes.view, 1, view);
-    use_skin(r, lens, view);
-    face_array_draw(&r->face, gl, RANGE_SKIN, RANGE_SKIN + 1);
-    face_array_draw(&r->face, gl, RANGE_INSIDE, RANGE_INSIDE + 1);
-    gl->UseProgram(r->eyes.program);
-    draw_eye(r, scene, 0);
-    draw_eye(r, scene, 1);
+    camera_place(&lens, &r->head, view, (float)r->width / (float)r->height);
+    return lens;
 }
 
 /* Pixels across a mark. */
@@ -321,11 +220,33 @@ static float mark_size(int height)
     return fmaxf(5, (float)height / 110);
 }
 
+static void draw_portrait(const renderer *r, const render_scene *scene, const render_lens *lens)
+{
+    const portrait_pose pose = {
+        .face = &r->face,
+        .mesh = fap_bank_mesh(r->bank),
+        .position = scene->position,
+        .normal = scene->normal,
+        .head = &r->head,
+        .lens = lens,
+    };
+    portrait_draw(&r->portrait, &r->gl, &pose);
+}
+
+static void draw_overlay(const renderer *r, const render_scene *scene, const render_lens *lens)
+{
+    if (scene->wireframe)
+        overlay_draw_wire(&r->over, &r->gl, &r->face, lens);
+    if (scene->mark_count)
+        overlay_draw_marks(&r->over, &r->gl, scene->mark, scene->mark_count, lens,
+                           (float)r->scale * mark_size(r->height));
+}
+
 /* A window's toolkit may have left any state behind: what matters here is set. */
-static void draw_scene(renderer *r, const render_scene *scene)
+static void draw_scene(const renderer *r, const render_scene *scene)
 {
     const gl_functions *gl = &r->gl;
-    render_lens c = lens_of(r, &scene->view);
+    const render_lens lens = lens_of(r, &scene->view);
 
     gl->BindFramebuffer(GL_FRAMEBUFFER, r->drawn.frame);
     gl->Viewport(0, 0, r->scale * r->width, r->scale * r->height);
@@ -335,33 +256,10 @@ static void draw_scene(renderer *r, const render_scene *scene)
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl->Enable(GL_DEPTH_TEST);
     gl->Enable(GL_CULL_FACE); /* the back of the head is half of the triangles */
-    draw_face(r, scene, &c);
-    if (scene->wireframe)
-        overlay_draw_wire(&r->over, gl, &r->face, &c);
-    if (scene->mark_count)
-        overlay_draw_marks(&r->over, gl, scene->mark, scene->mark_count, &c,
-                           (float)r->scale * mark_size(r->height));
+    draw_portrait(r, scene, &lens);
+    draw_overlay(r, scene, &lens);
     gl->Disable(GL_DEPTH_TEST);
     gl->Disable(GL_CULL_FACE);
-}
-
-/* The face before the studio. @first_on_top: 0 as OpenGL counts rows, 1 as pictures do. */
-static void draw_studio(const renderer *r, render_target target, int first_on_top)
-{
-    const gl_functions *gl = &r->gl;
-    const float place[4] = { (float)target.x, (float)target.y, (float)r->width, (float)r->height };
-
-    gl->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    gl->Viewport(target.x, target.y, r->width, r->height);
-    gl->UseProgram(r->studio.program);
-    gl->ActiveTexture(GL_TEXTURE0);
-    gl->BindTexture(GL_TEXTURE_2D, r->drawn.colour);
-    gl->Uniform1i(r->studio.drawn, 0);
-    gl->Uniform4fv(r->studio.place, 1, place);
-    gl->Uniform1i(r->studio.first_on_top, first_on_top);
-    gl->BindVertexArray(r->empty_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
-    gl->BindTexture(GL_TEXTURE_2D, 0);
 }
 
 static fap_err draw_into(renderer *r, const render_scene *scene, render_target target, int first_on_top)
@@ -374,7 +272,8 @@ static fap_err draw_into(renderer *r, const render_scene *scene, render_target t
     if (err)
         return err;
     draw_scene(r, scene);
-    draw_studio(r, target, first_on_top);
+    r->gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    studio_draw(&r->studio, &r->gl, r->drawn.colour, target.x, target.y, r->width, r->height, first_on_top);
     return FAP_OK;
 }
 
@@ -423,7 +322,7 @@ fap_err renderer_show(renderer *r, const render_scene *scene, render_target targ
 
 int renderer_project(const renderer *r, const render_view *view, const float place_mm[3], float pixel[3])
 {
-    const render_lens c = lens_of(r, view);
-    return r->width && camera_project(&c, place_mm, r->width, r->height, pixel);
+    const render_lens lens = lens_of(r, view);
+    return r->width && camera_project(&lens, place_mm, r->width, r->height, pixel);
 }
 #endif

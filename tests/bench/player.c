@@ -222,7 +222,8 @@ static void draw_bare(const bare *b, image *picture)
     gl->Enable(GL_DEPTH_TEST);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl->UseProgram(b->program);
-    face_array_draw(&b->face, gl, RANGE_SKIN, RANGE_COUNT);
+    for (int range = 0; range < RANGE_COUNT; range++)
+        face_array_draw(&b->face, gl, (face_range)range);
     if (b->scale > 1) {
         gl->BindFramebuffer(GL_FRAMEBUFFER, b->read.frame);
         gl->Viewport(0, 0, b->width, b->height);
