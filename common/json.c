@@ -58,13 +58,23 @@ void json_string(json *j, const char *key, const char *value)
     put_text(j->out, value);
 }
 
-void json_number(json *j, const char *key, double value)
+static void put_number(json *j, const char *key, double value, int digits)
 {
     begin(j, key);
     if (isfinite(value))
-        fprintf(j->out, "%.6g", value);
+        fprintf(j->out, "%.*g", digits, value);
     else
         fputs("null", j->out);
+}
+
+void json_number(json *j, const char *key, double value)
+{
+    put_number(j, key, value, 6);
+}
+
+void json_float(json *j, const char *key, float value)
+{
+    put_number(j, key, (double)value, 9);
 }
 
 void json_integer(json *j, const char *key, int64_t value)

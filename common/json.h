@@ -17,6 +17,7 @@ void json_open(json *j, const char *key, char bracket); /* '{' or '[' */
 void json_close(json *j, char bracket);                 /* '}' or ']' */
 void json_string(json *j, const char *key, const char *value);
 void json_number(json *j, const char *key, double value); /* null where not finite */
+void json_float(json *j, const char *key, float value);   /* so that reading gives the same bits */
 void json_integer(json *j, const char *key, int64_t value);
 void json_bool(json *j, const char *key, int value);
 

@@ -409,6 +409,7 @@ static const char help_text[] =
     "  NAME.csv, -              a table of every frame, by default of the feature points in millimetres\n"
     "      --csv KIND           points, vertices (millimetres), weights (of the key models), faps (as "
     "shown)\n"
+    "  NAME.glb                 the moving face as glTF 2.0, for Blender, three.js and viewers\n"
     "  null, NAME.null          nowhere: poses every frame and keeps nothing\n"
     "  --sheet N                N moments in one picture, -o NAME.png (- for standard output)\n"
     "  --golden DIR             compare with DIR/NNNN.png; what differs is left in the folder OUT\n"
@@ -469,6 +470,7 @@ static const char help_text[] =
     "  fapplay hello.fap --sheet 12 -o sheet.png\n"
     "  fapplay hello.fap --fps 100 -o points.csv\n"
     "  fapplay hello.fap --csv weights -o weights.csv\n"
+    "  fapplay hello.fap -o hello.glb\n"
     "  fapplay hello.fap --trigger gpiochip0:17:pull-up:falling:debounce=5ms --tally gpiochip0:27 -o "
     "hello.mp4\n"
     "  fapplay hello.fap --bank builtin --size 256x256 --frames 0:3 --golden tests/golden/hello\n";
@@ -550,7 +552,8 @@ static int take_stream(play_options *o, int argc, char **argv)
 
 static int no_such_output(const play_options *o)
 {
-    tool_error("-o %s: expected NAME.png, NAME_%%04d.png, NAME.mp4, NAME.webm, NAME.mkv, NAME.csv, - or null",
+    tool_error("-o %s: expected NAME.png, NAME_%%04d.png, NAME.mp4, NAME.webm, NAME.mkv, NAME.csv, NAME.glb, "
+               "- or null",
                o->output);
     return 0;
 }

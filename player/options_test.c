@@ -264,3 +264,13 @@ TEST(play_options, tables_have_a_kind)
     refuses("a.fap --csv weights");
     refuses("a.fap --golden dir --csv weights");
 }
+
+TEST(play_options, a_glb_is_one_file)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o a.glb --frames 3:5 --fps 30");
+    assert_ptr_equal(o.sink, &sink_glb);
+    refuses("a.fap -o a_%04d.glb");
+    refuses("a.fap -o a.glb --audio a.wav");
+}

@@ -107,6 +107,10 @@ static void put_json(const play_report *r, const play_options *o)
     json_number(&j, "worst_error_mm", r->residual_mm);
     if (r->triggers)
         json_number(&j, "trigger_ms", r->trigger_ms);
+    if (r->result.has_error) {
+        json_number(&j, "export_worst_error_mm", r->result.worst_error_mm);
+        json_number(&j, "export_rms_error_mm", r->result.rms_error_mm);
+    }
     if (o->golden)
         put_golden(&j, &r->result);
     if (!o->sink && r->window.session.frame_count)
@@ -128,6 +132,9 @@ static void say_success(const play_report *r, const play_options *o)
     else
         tool_note("%s: %" PRId64 " frame%s at %g Hz (the stream lasts %.2f s)", o->output, r->shown_frames,
                   r->shown_frames == 1 ? "" : "s", r->rate_hz, r->stream_s);
+    if (r->result.has_error)
+        tool_note("%s: vertices within %.3g mm of the player's, %.2g mm RMS", o->output,
+                  r->result.worst_error_mm, r->result.rms_error_mm);
 }
 
 int play_report_print(const play_report *r, const play_options *o)

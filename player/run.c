@@ -152,7 +152,7 @@ static int await_trigger(player *p)
     return 1;
 }
 
-static int show(player *p, int64_t i, const float (*point)[3])
+static int show(player *p, int64_t i, int pass, const float (*point)[3])
 {
     const int64_t number = frame_plan_at(&p->plan, i);
     shown_frame shown = {
@@ -160,6 +160,7 @@ static int show(player *p, int64_t i, const float (*point)[3])
         .time_s = (double)number / p->report->rate_hz,
         .point = point,
         .picture = p->renderer ? &p->picture : NULL,
+        .pass = pass,
     };
 
     if (!p->renderer) {
@@ -172,18 +173,24 @@ static int show(player *p, int64_t i, const float (*point)[3])
     if (!p->opt->sink->show(p->sink_state, &shown, &p->report->fault))
         return 0;
     gpio_on_frame(&p->lines);
-    p->report->shown_frames++;
+    p->report->shown_frames = i + 1;
     return 1;
+}
+
+static int pass_count(const player *p)
+{
+    return p->opt->sink->passes > 1 ? p->opt->sink->passes : 1;
 }
 
 static int show_poses(player *p, progress *bar)
 {
-    for (int64_t i = 0; i < p->plan.count; i++) {
-        pose(p, i);
-        if (!show(p, i, (const float(*)[3])p->scene.point))
-            return 0;
-        progress_step(bar, i + 1);
-    }
+    for (int pass = 0; pass < pass_count(p); pass++)
+        for (int64_t i = 0; i < p->plan.count; i++) {
+            pose(p, i);
+            if (!show(p, i, pass, (const float(*)[3])p->scene.point))
+                return 0;
+            progress_step(bar, pass * p->plan.count + i + 1);
+        }
     return 1;
 }
 
@@ -213,7 +220,7 @@ static int show_pictures(player *p, progress *bar)
             pose(p, i + 1);
         if (!drawn(p, renderer_finish(p->renderer, &p->picture)))
             return 0;
-        if ((i + 1 < count && !begin_picture(p)) || !show(p, i, (const float(*)[3])point))
+        if ((i + 1 < count && !begin_picture(p)) || !show(p, i, 0, (const float(*)[3])point))
             return 0;
         progress_step(bar, i + 1);
     }
@@ -224,7 +231,7 @@ static int show_all(player *p)
 {
     progress bar;
 
-    progress_start(&bar, p->opt->sink->name, p->plan.count);
+    progress_start(&bar, p->opt->sink->name, pass_count(p) * p->plan.count);
     const int ok = p->renderer ? show_pictures(p, &bar) : show_poses(p, &bar);
     progress_end(&bar);
     gpio_on_stop(&p->lines);

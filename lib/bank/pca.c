@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * With X' the models less their mean, the eigenvectors of X'X'^T (three rows a vertex) are X' times those of
- * the M x M matrix X'^T X'; its entries are sparse inner products of motions. Eigenvectors by cyclic Jacobi
- * rotations. The paper's eigenvalues are sums over models; ours are divided by their number, so that their
- * roots are standard deviations. Source: Yano et al., section 5.2; Golub & Van Loan, section 8.5.
+ * With X' the models less their mean, the eigenvectors of X'X'^T (three rows a vertex) are X' times those of the
+ * M x M matrix X'^T X'; its entries are sparse inner products of motions. The paper's eigenvalues are sums over
+ * models; ours are divided by their number, so that their roots are standard deviations. Source: Yano et al.,
+ * section 5.2.
  */
 #include <math.h>
 #include <string.h>
 
 #include "bank/pca.h"
+#include "base/jacobi.h"
 #include "base/mem.h"
 
-enum { MOST_SWEEPS = 30 };
 static const double least_share = 1e-9; /* of the largest variance: below it a component is rounding */
 
 static double block_product(const int16_t *a, const int16_t *b)
@@ -67,62 +67,6 @@ static void centre(double *g, size_t n, double *mean)
             g[i * n + j] += all - mean[i] - mean[j];
 }
 
-static void turn(double *a, double *b, double c, double s)
-{
-    const double t = *a;
-
-    *a = c * t - s * *b;
-    *b = s * t + c * *b;
-}
-
-/* Makes g[p][q] zero; v collects the rotations as rows. */
-static void rotate(double *g, double *v, size_t n, size_t p, size_t q)
-{
-    if (g[p * n + q] == 0)
-        return;
-    const double theta = (g[q * n + q] - g[p * n + p]) / (2 * g[p * n + q]);
-    const double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1));
-    const double c = 1 / sqrt(t * t + 1), s = t * c;
-
-    for (size_t k = 0; k < n; k++)
-        turn(&g[k * n + p], &g[k * n + q], c, s);
-    for (size_t k = 0; k < n; k++)
-        turn(&g[p * n + k], &g[q * n + k], c, s);
-    for (size_t k = 0; k < n; k++)
-        turn(&v[p * n + k], &v[q * n + k], c, s);
-}
-
-static double off_diagonal(const double *g, size_t n)
-{
-    double sum = 0;
-
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < i; j++)
-            sum += g[i * n + j] * g[i * n + j];
-    return sum;
-}
-
-static double trace(const double *g, size_t n)
-{
-    double sum = 0;
-
-    for (size_t i = 0; i < n; i++)
-        sum += g[i * n + i];
-    return sum;
-}
-
-static void diagonalise(double *g, double *v, size_t n)
-{
-    const double enough = 1e-24 * trace(g, n) * trace(g, n);
-
-    for (size_t i = 0; i < n; i++)
-        v[i * n + i] = 1;
-    for (int sweep = 0; sweep < MOST_SWEEPS && off_diagonal(g, n) > enough; sweep++)
-        for (size_t p = 0; p < n; p++)
-            for (size_t q = p + 1; q < n; q++)
-                rotate(g, v, n, p, q);
-}
-
 /* The largest eigenvalue that has not been taken; -1: none is worth it. */
 static int next_largest(const double *g, size_t n, double below)
 {
@@ -159,7 +103,7 @@ static int solve(fap_pca *pca, const fap_bank *bank, const fap_allocator *alloc)
         return 1;
     fill_products(pca, bank, work);
     centre(work, n, work + 2 * n * n);
-    diagonalise(work, work + n * n, n);
+    fap_jacobi(work, work + n * n, n);
     take_components(pca, work, work + n * n);
     fap_mem_free(alloc, work);
     return 0;

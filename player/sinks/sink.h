@@ -38,6 +38,7 @@ typedef struct shown_frame {
     const fap_frame *frame;
     const float *position; /* as fap_face_pose() fills it */
     const float *weight;   /* [key count] */
+    int pass;              /* 0, and on for sinks that are shown all frames again */
 } shown_frame;
 
 /* What became of it, for the report. */
@@ -45,6 +46,8 @@ typedef struct sink_result {
     int64_t same, different; /* golden pictures */
     int64_t updated;
     int worst; /* largest difference of a channel */
+    int has_error; /* an export tells how far off it leaves vertices: the farthest of all frames, and root mean square */
+    double worst_error_mm, rms_error_mm;
 } sink_result;
 
 typedef enum sink_choice { SINK_ALL_FRAMES, SINK_FIRST_FRAME, SINK_MOMENTS } sink_choice;
@@ -53,6 +56,7 @@ typedef struct play_sink {
     const char *name, *summary; /* for reports and --help */
     int needs_picture;
     sink_choice choice; /* which frames of the range it is shown */
+    int passes;         /* how often it is shown all of them; 0 is once. Not for sinks that need pictures */
     size_t state_size;  /* allocated by the player, zeroed */
     /* All return 0 and set the fault when they fail. */
     int (*open)(void *state, const sink_setup *setup, fault *f);
@@ -61,7 +65,8 @@ typedef struct play_sink {
     void (*close)(void *state);                                /* always; undoes what was not finished */
 } play_sink;
 
-extern const play_sink sink_png, sink_png_sequence, sink_video, sink_csv, sink_sheet, sink_golden, sink_null;
+extern const play_sink sink_png, sink_png_sequence, sink_video, sink_csv, sink_glb, sink_sheet, sink_golden,
+    sink_null;
 /* All of them, then NULL. */
 extern const play_sink *const play_sinks[];
 

@@ -7,7 +7,8 @@
 #include "player/sinks/sink.h"
 
 const play_sink *const play_sinks[] = {
-    &sink_png, &sink_png_sequence, &sink_video, &sink_csv, &sink_sheet, &sink_golden, &sink_null, NULL,
+    &sink_png,   &sink_png_sequence, &sink_video, &sink_csv, &sink_glb,
+    &sink_sheet, &sink_golden,       &sink_null,  NULL,
 };
 
 static const struct {
@@ -19,6 +20,7 @@ static const struct {
     { ".webm", &sink_video, NULL },
     { ".mkv", &sink_video, NULL },
     { ".csv", &sink_csv, NULL },
+    { ".glb", &sink_glb, NULL },
     { ".null", &sink_null, NULL },
 };
 
