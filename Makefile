@@ -136,6 +136,11 @@ $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-databank
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)
 
+# fapplay with lines that are files: tests/cli/window_lines.sh.
+$(B)/fapplay-lines: $(B)/player/main.o $(B)/tests/gpio/files.o $(B)/libfap-play.a $(B)/libfap-render.a $(filter-out $(B)/libfap-gpio-%,$(BASE))
+	$(call SAY,LD)
+	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lpthread -lm
+
 # Streams written field by field (docs/conformance.md). Needs no cmocka: it runs wherever libfap does.
 CONF_SRC := $(wildcard tests/conformance/*.c)
 $(B)/conformance: $(call obj,$(CONF_SRC)) $(B)/libfap.a
@@ -173,7 +178,7 @@ setup:             ## install the Debian packages that are missing (scripts/pack
 
 test: setup        ## install what is missing, build, run every test
 	+$(Q)$(MAKE) --no-print-directory config=$(config) check
-check: all face $(B)/unit $(B)/conformance $(REPLAY) $(B)/examples
+check: all face $(B)/unit $(B)/fapplay-lines $(B)/conformance $(REPLAY) $(B)/examples
 	$(Q)B=$(B) tests/run
 unit: $(B)/unit    ## unit tests alone
 	$(Q)$(B)/unit

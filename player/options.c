@@ -452,7 +452,7 @@ static const char help_text[] =
     ":pull-down,\n"
     "                           :debounce=5ms, :timeout=10s\n"
     "  --tally CHIP:LINE        high exactly while playing\n"
-    "  --frame-sync CHIP:LINE   toggles at every shown frame\n"
+    "  --frame-sync CHIP:LINE   toggles at every frame shown while playing\n"
     "  --end-pulse CHIP:LINE[:MS]    a pulse at the end, 100 ms without MS\n"
     "  --button CHIP:LINE=DO    of the window: pause, next, start, stop or expression:joy (to surprise)\n"
     "\n"
