@@ -235,6 +235,17 @@ static int set_camera(play_options *o, const char *text)
     return i >= 0;
 }
 
+static int set_background(play_options *o, const char *text)
+{
+    return dress_parse_background(&o->dress, text);
+}
+
+static int set_texture(play_options *o, const char *text)
+{
+    o->dress.skin = text;
+    return text[0] != '\0';
+}
+
 static int set_gl(play_options *o, const char *text)
 {
     o->gl = text;
@@ -362,6 +373,8 @@ static const option_row rows[] = {
     { "frames", set_frames, "A:B, the first frame and the one behind the last" },
     { "camera", set_camera, "front, left, right or three-quarter" },
     { "gl", set_gl, "osmesa or egl" },
+    { "background", set_background, "studio, none, a colour such as #204060 or a PNG file" },
+    { "texture", set_texture, "a PNG file" },
     { "sheet", set_sheet, "a number from 1 to 1024" },
     { "golden", set_golden, "a folder" },
     { "update", set_update, NULL },
@@ -441,6 +454,11 @@ static const char help_text[] =
     "even for "
     "films\n"
     "  --camera C               front, left, right or three-quarter (front)\n"
+    "  --background B           studio, a colour as #RRGGBB, a PNG file that fills the frame, or none: -o "
+    "PNG is\n"
+    "                           transparent round the face (studio)\n"
+    "  --texture F.png          laid on the skin by the face's texture coordinates, in place of its own "
+    "colours\n"
     "  --gl osmesa|egl          OpenGL without a window by this library (the first that works)\n"
     "  --fps R                  frames a second (as the stream)\n"
     "  --frames A:B             from frame A up to, without, frame B, at the output's rate; either may be "
@@ -620,6 +638,8 @@ static int check(play_options *o)
 {
     if (!choose_sink(o) || !check_sizes(o))
         return 0;
+    if (o->dress.backdrop == BACKDROP_NOTHING && o->sink != &sink_png && o->sink != &sink_png_sequence)
+        return refuse("--background none needs a PNG, not", o->output ? o->output : "the window");
     if (o->sink && !check_offscreen(o))
         return 0;
     if (o->json && o->output && !strcmp(o->output, "-"))

@@ -7,6 +7,7 @@
 
 #include <fap/face.h>
 
+#include "player/dress.h"
 #include "player/lines.h"
 #include "player/render/renderer.h"
 #include "player/sinks/sink.h"
@@ -22,6 +23,7 @@ typedef struct play_options {
     const struct csv_kind *csv; /* --csv */
     fap_face_config face;
     const char *gl; /* how to draw without a window; NULL: what works */
+    dress_options dress;
     render_camera camera;
     int width, height;
     double rate_hz;   /* 0: the stream's */

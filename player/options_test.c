@@ -119,6 +119,35 @@ TEST(play_options, every_option_of_the_picture_arrives)
     assert_true(o.json && o.quiet);
 }
 
+TEST(play_options, backgrounds_and_textures_arrive)
+{
+    const uint8_t rgb[3] = { 0x20, 0x40, 0xff };
+    play_options o;
+
+    takes(&o, "a.fap -o a.png --background #2040fF --texture skin.png");
+    assert_int_equal(o.dress.backdrop, BACKDROP_COLOUR);
+    assert_memory_equal(o.dress.rgb, rgb, 3);
+    assert_string_equal(o.dress.skin, "skin.png");
+    takes(&o, "a.fap --background wall.png");
+    assert_int_equal(o.dress.backdrop, BACKDROP_PICTURE);
+    assert_string_equal(o.dress.picture, "wall.png");
+    takes(&o, "a.fap --background wall.png --background studio");
+    assert_int_equal(o.dress.backdrop, BACKDROP_STUDIO);
+    assert_null(o.dress.picture);
+    takes(&o, "a.fap -o a_%d.png --background none");
+    assert_int_equal(o.dress.backdrop, BACKDROP_NOTHING);
+}
+
+TEST(play_options, backgrounds_that_cannot_be_are_refused)
+{
+    refuses("a.fap --background #12345");
+    refuses("a.fap --background #1234567");
+    refuses("a.fap --background #12 456");
+    refuses("a.fap --background #-12345");
+    refuses("a.fap --background none"); /* a window shows no holes */
+    refuses("a.fap --background none -o a.mp4");
+}
+
 TEST(play_options, either_end_of_a_range_may_be_left_out)
 {
     play_options o;

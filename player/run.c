@@ -110,7 +110,8 @@ static int open_renderer(player *p)
         return fault_set(&p->report->fault, EXIT_DATA, "cannot draw %d x %d pixels: %s", o->width, o->height,
                          where[0] ? where : fap_strerror(err ? err : FAP_E_NOMEM));
     snprintf(p->report->renderer, sizeof p->report->renderer, "%s", renderer_description(p->renderer));
-    return 1;
+    p->picture.transparent = o->dress.backdrop == BACKDROP_NOTHING;
+    return dress_renderer(p->renderer, &o->dress, &p->report->fault);
 }
 
 static int open_sink(player *p)

@@ -10,7 +10,7 @@
 #include "player/render/gl_objects.h"
 #include "player/render/occlusion.h"
 
-enum { POSITION, NORMAL, PAINT, SURFACE, ON_EYE }; /* the locations in shaders.h */
+enum { POSITION, NORMAL, PAINT, SURFACE, ON_EYE, UV }; /* the locations in shaders.h */
 
 typedef struct moving_vertex {
     float position[3], normal[3];
@@ -132,6 +132,16 @@ static void send_still(face_array *face, const gl_functions *gl, const fap_mesh 
     gl_attributes_set(gl, still_attributes, 3, sizeof *s->still);
 }
 
+static void send_uv(face_array *face, const gl_functions *gl, const fap_mesh *mesh)
+{
+    static const gl_attribute uv = { UV, 2, GL_FLOAT, GL_FALSE, 0 };
+    const size_t one = 2 * sizeof *mesh->uv;
+
+    gl->BindVertexArray(face->array);
+    face->uv_buffer = gl_buffer_make(gl, GL_ARRAY_BUFFER, mesh->uv, mesh->vertex_count * one, GL_STATIC_DRAW);
+    gl_attributes_set(gl, &uv, 1, one);
+}
+
 static void make_moving(face_array *face, const gl_functions *gl, const fap_mesh *mesh)
 {
     gl->BindVertexArray(face->array);
@@ -157,6 +167,8 @@ static fap_err make_arrays(face_array *face, const gl_functions *gl, const fap_b
     for (int right = 0; right < 2; right++)
         eye_look_measure(&face->eye[right], bank, right, s->on_eye);
     send_still(face, gl, mesh, s);
+    if (mesh->uv)
+        send_uv(face, gl, mesh);
     make_moving(face, gl, mesh);
     return FAP_OK;
 }
@@ -177,6 +189,7 @@ void face_array_delete(face_array *face, const gl_functions *gl)
     gl->DeleteVertexArrays(1, &face->array);
     gl->DeleteBuffers(1, &face->index_buffer);
     gl->DeleteBuffers(1, &face->still_buffer);
+    gl->DeleteBuffers(1, &face->uv_buffer);
     gl->DeleteBuffers(1, &face->moving_buffer);
     *face = (face_array){ 0 };
 }

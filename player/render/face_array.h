@@ -13,7 +13,7 @@ typedef enum face_range { RANGE_SKIN, RANGE_EYE_LEFT, RANGE_EYE_RIGHT, RANGE_INS
 
 typedef struct face_array {
     GLuint array;
-    GLuint index_buffer, still_buffer, moving_buffer;
+    GLuint index_buffer, still_buffer, uv_buffer, moving_buffer; /* uv: 0 where the face has none */
     GLsizei first[RANGE_COUNT + 1]; /* indices in front of each range; then all */
     eye_look eye[2];                /* left, right */
 } face_array;

@@ -28,6 +28,7 @@
     X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                               \
     X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                       \
     X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                 \
+    X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                               \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                       \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                   \

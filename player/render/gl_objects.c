@@ -67,6 +67,32 @@ void gl_attributes_set(const gl_functions *gl, const gl_attribute *attribute, in
     }
 }
 
+static void set_borders(const gl_functions *gl)
+{
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+GLuint gl_texture_make(const gl_functions *gl, const image *picture)
+{
+    GLint most = 0;
+    GLuint texture;
+
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (picture->width > most || picture->height > most)
+        return 0;
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                   picture->rgba);
+    gl->GenerateMipmap(GL_TEXTURE_2D);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    set_borders(gl);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
 static GLuint make_colour(const gl_functions *gl, int width, int height)
 {
     GLuint texture;
@@ -77,8 +103,7 @@ static GLuint make_colour(const gl_functions *gl, int width, int height)
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_borders(gl);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
     gl->BindTexture(GL_TEXTURE_2D, 0);
     return texture;

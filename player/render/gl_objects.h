@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "player/render/gl.h"
+#include "player/render/image.h"
 
 /* 0 on failure, with the compiler's words in @where (FAP_ERROR_TEXT_SIZE bytes). */
 GLuint gl_program_make(const gl_functions *gl, const char *vertex_source, const char *fragment_source,
@@ -24,6 +25,9 @@ typedef struct gl_attribute {
 } gl_attribute;
 
 void gl_attributes_set(const gl_functions *gl, const gl_attribute *attribute, int count, size_t stride);
+
+/* A picture to look up, its first row at 0, smoothed where it becomes smaller. 0: the context takes none of this size. */
+GLuint gl_texture_make(const gl_functions *gl, const image *picture);
 
 /* A framebuffer object and what it is made of. */
 typedef struct gl_target {

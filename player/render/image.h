@@ -11,7 +11,8 @@
 
 typedef struct image {
     int width, height;
-    uint8_t *rgba; /* [height][width][4] */
+    uint8_t *rgba;   /* [height][width][4] */
+    int transparent; /* alpha is part of the picture: files keep it; 0 after image_create() */
 } image;
 
 /* Zeroed pixels. FAP_E_LIMIT past 16384 pixels a side. */

@@ -15,11 +15,13 @@ static void quiet(png_structp png, png_const_charp text)
 
 static void write_rows(png_structp png, png_infop info, const image *im)
 {
-    png_set_IHDR(png, info, (png_uint_32)im->width, (png_uint_32)im->height, 8, PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, (png_uint_32)im->width, (png_uint_32)im->height, 8,
+                 im->transparent ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
-    png_set_filler(png, 0, PNG_FILLER_AFTER);
+    if (!im->transparent)
+        png_set_filler(png, 0, PNG_FILLER_AFTER);
     for (int y = 0; y < im->height; y++)
         png_write_row(png, im->rgba + (size_t)y * (size_t)im->width * 4);
     png_write_end(png, info);

@@ -68,6 +68,29 @@ TEST(image, png_gives_back_the_pixels_written)
     assert_int_equal(image_read_png(&out, "/tmp/fap_no_such_file.png"), FAP_E_NOT_FOUND);
 }
 
+TEST(image, png_keeps_alpha_only_where_it_means_something)
+{
+    for (int transparent = 0; transparent < 2; transparent++) {
+        image in = pattern(3, 3), out;
+        char *bytes = NULL;
+        size_t size;
+        FILE *f = open_memstream(&bytes, &size);
+
+        in.rgba[3] = 77;
+        in.transparent = transparent;
+        if (image_write_png(&in, f, 1) == FAP_E_UNSUPPORTED)
+            skip();
+        fclose(f);
+        const char *path = temporary(bytes, size);
+        assert_int_equal(image_read_png(&out, path), FAP_OK);
+        unlink(path);
+        assert_int_equal(out.rgba[3], transparent ? 77 : 255);
+        image_free(&out);
+        image_free(&in);
+        free(bytes);
+    }
+}
+
 TEST(image, comparison_allows_a_few_pixels_and_no_more)
 {
     image a = pattern(100, 100), b = pattern(100, 100), diff;

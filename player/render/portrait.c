@@ -29,23 +29,40 @@ static void find_eye_uniforms(portrait *p, const gl_functions *gl)
     p->eye.size = gl->GetUniformLocation(program, "size");
 }
 
-fap_err portrait_make(portrait *p, const gl_functions *gl, char *where)
+static GLuint make_skin_program(const gl_functions *gl, int textured, char *where)
+{
+    return textured ? gl_program_make(gl, textured_vertex_source, textured_fragment_source, where)
+                    : gl_program_make(gl, face_vertex_source, face_fragment_source, where);
+}
+
+static fap_err take_skin(portrait *p, const gl_functions *gl, const image *picture, char *where)
+{
+    p->skin_picture = gl_texture_make(gl, picture);
+    if (p->skin_picture)
+        return FAP_OK;
+    snprintf(where, FAP_ERROR_TEXT_SIZE, "this OpenGL takes no texture of %d x %d pixels", picture->width,
+             picture->height);
+    return FAP_E_LIMIT;
+}
+
+fap_err portrait_make(portrait *p, const gl_functions *gl, const image *skin_picture, char *where)
 {
     *p = (portrait){
-        .skin_program = gl_program_make(gl, face_vertex_source, face_fragment_source, where),
+        .skin_program = make_skin_program(gl, skin_picture != NULL, where),
         .eye_program = gl_program_make(gl, eye_vertex_source, eye_fragment_source, where),
     };
     if (!p->skin_program || !p->eye_program)
         return FAP_E_UNSUPPORTED;
     find_skin_uniforms(p, gl);
     find_eye_uniforms(p, gl);
-    return FAP_OK;
+    return skin_picture ? take_skin(p, gl, skin_picture, where) : FAP_OK;
 }
 
 void portrait_delete(portrait *p, const gl_functions *gl)
 {
     gl->DeleteProgram(p->skin_program); /* OpenGL ignores 0 */
     gl->DeleteProgram(p->eye_program);
+    gl->DeleteTextures(1, &p->skin_picture);
     *p = (portrait){ 0 };
 }
 
@@ -67,8 +84,11 @@ static void draw_skin(const portrait *p, const gl_functions *gl, const portrait_
     gl->UniformMatrix4fv(p->skin.view_projection, 1, GL_FALSE, pose->lens->view_projection[0]);
     gl->Uniform3fv(p->skin.view, 1, view);
     gl->Uniform3fv(p->skin.half_key, 1, half_key);
+    gl->ActiveTexture(GL_TEXTURE0); /* where samplers look unless told otherwise */
+    gl->BindTexture(GL_TEXTURE_2D, p->skin_picture);
     face_array_draw(pose->face, gl, RANGE_SKIN);
     face_array_draw(pose->face, gl, RANGE_INSIDE);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
 }
 
 static void draw_eye(const portrait *p, const gl_functions *gl, const portrait_pose *pose, int right)

@@ -5,9 +5,11 @@
 
 #include "player/render/camera.h"
 #include "player/render/face_array.h"
+#include "player/render/image.h"
 
 typedef struct portrait {
     GLuint skin_program, eye_program;
+    GLuint skin_picture; /* or 0: the bank's colours */
     /* uniforms */
     struct {
         GLint view_projection, view, half_key;
@@ -17,8 +19,8 @@ typedef struct portrait {
     } eye;
 } portrait;
 
-/* @where: FAP_ERROR_TEXT_SIZE bytes. Harmless to delete after a failure. */
-fap_err portrait_make(portrait *p, const gl_functions *gl, char *where);
+/* @skin_picture: laid on the skin, or NULL. @where: FAP_ERROR_TEXT_SIZE bytes. FAP_E_LIMIT: that is too large. Harmless to delete after a failure. */
+fap_err portrait_make(portrait *p, const gl_functions *gl, const image *skin_picture, char *where);
 void portrait_delete(portrait *p, const gl_functions *gl);
 
 /* What is looked at and from where: the arrays that hold the pose, and the pose for what of it is no vertex. */

@@ -27,6 +27,7 @@ struct renderer {
     const fap_bank *bank;
     head_frame head;
     int width, height; /* 0: no targets */
+    int dressed;       /* portrait and studio are whole */
     int begun;         /* a picture waits to be read back */
     int scale;         /* of what is drawn: OVERSAMPLING, or 1 where the context has no room for it */
     gl_target drawn, resolved;
@@ -40,11 +41,12 @@ struct renderer {
 
 static fap_err make_programs(renderer *r, char *where)
 {
-    fap_err err = portrait_make(&r->portrait, &r->gl, where);
+    const render_look plain = { 0 };
+    fap_err err = portrait_make(&r->portrait, &r->gl, NULL, where);
 
     if (!err)
         err = overlay_make(&r->over, &r->gl, where);
-    return err ? err : studio_make(&r->studio, &r->gl, where);
+    return err ? err : studio_make(&r->studio, &r->gl, &plain, where);
 }
 
 static fap_err make_face(renderer *r, char *where)
@@ -68,6 +70,7 @@ static fap_err make_scene(renderer *r, int width, int height, char *where)
     r->loaded = 1;
     if ((err = make_programs(r, where)) || (err = make_face(r, where)))
         return err;
+    r->dressed = 1;
     err = renderer_resize(r, width, height);
     if (err)
         snprintf(where, FAP_ERROR_TEXT_SIZE, "no framebuffer of %d x %d pixels", width, height);
@@ -163,6 +166,24 @@ void renderer_destroy(renderer **r)
     gl_context_close(&(*r)->own);
     free(*r);
     *r = NULL;
+}
+
+fap_err renderer_dress(renderer *r, const render_look *look, char *where)
+{
+    *where = '\0';
+    if (look->skin && !fap_bank_mesh(r->bank)->uv) {
+        snprintf(where, FAP_ERROR_TEXT_SIZE, "this face has no texture coordinates; the default face has");
+        return FAP_E_DATA;
+    }
+    make_current(r);
+    portrait_delete(&r->portrait, &r->gl);
+    studio_delete(&r->studio, &r->gl);
+    r->dressed = 0;
+    fap_err err = portrait_make(&r->portrait, &r->gl, look->skin, where);
+    if (!err)
+        err = studio_make(&r->studio, &r->gl, look, where);
+    r->dressed = !err;
+    return err;
 }
 
 /* A Raspberry Pi 4 has 4096 pixels a side. */
@@ -264,7 +285,7 @@ static void draw_scene(const renderer *r, const render_scene *scene)
 
 static fap_err draw_into(renderer *r, const render_scene *scene, render_target target, int first_on_top)
 {
-    if (!r->width)
+    if (!r->width || !r->dressed)
         return FAP_E_ARG;
     make_current(r);
     const fap_err err =

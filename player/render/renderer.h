@@ -14,6 +14,7 @@
 #include <fap/bank.h>
 
 #include "player/render/image.h"
+#include "player/render/look.h"
 #include "player/render/view.h"
 
 typedef struct renderer renderer;
@@ -55,6 +56,13 @@ fap_err renderer_create_on(renderer **out, const gl_context_source *source, cons
                            int height, char *where);
 /* Frees what it has made in the context; accepts NULL in @r. */
 void renderer_destroy(renderer **r);
+
+/*
+ * Another look than the studio and the bank's colours. After FAP_E_LIMIT the renderer draws nothing until a call succeeds.
+ * @where  FAP_ERROR_TEXT_SIZE bytes
+ * FAP_E_DATA: the face has no texture coordinates for the skin's picture. FAP_E_LIMIT: a picture is too large for this OpenGL.
+ */
+fap_err renderer_dress(renderer *r, const render_look *look, char *where);
 
 /* Another size, within the same limits. After a failure the renderer has no size until a call succeeds. */
 fap_err renderer_resize(renderer *r, int width, int height);

@@ -30,6 +30,13 @@ void renderer_destroy(renderer **r)
     *r = NULL;
 }
 
+fap_err renderer_dress(renderer *r, const render_look *look, char *where)
+{
+    (void)r, (void)look;
+    *where = '\0';
+    return FAP_E_UNSUPPORTED;
+}
+
 fap_err renderer_resize(renderer *r, int width, int height)
 {
     (void)r, (void)width, (void)height;

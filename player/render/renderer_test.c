@@ -351,3 +351,101 @@ TEST(renderer, shows_into_a_framebuffer_of_the_caller_what_it_would_have_read_ba
     image_free(&shown);
 }
 #endif
+
+/* --- other looks --- */
+
+static const uint8_t *pixel(const image *im, int x, int y)
+{
+    return im->rgba + 4 * (y * im->width + x);
+}
+
+static image dressed(stage *s, const render_look *look)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+
+    assert_int_equal(renderer_dress(s->renderer, look, where), FAP_OK);
+    return picture(s, 0, CAMERA_FRONT);
+}
+
+TEST(renderer, a_colour_takes_the_place_of_the_studio)
+{
+    const render_look blue = { .backdrop = BACKDROP_COLOUR, .rgb = { 32, 64, 96 } };
+    const uint8_t opaque_blue[4] = { 32, 64, 96, 255 };
+    stage s;
+
+    open_stage(&s);
+    image im = dressed(&s, &blue);
+    assert_memory_equal(pixel(&im, 0, 0), opaque_blue, 4);
+    assert_memory_equal(pixel(&im, SIZE - 1, SIZE - 1), opaque_blue, 4);
+    assert_true(is_skin(&im, SIZE / 2, SIZE / 2));
+    image_free(&im);
+    close_stage(&s);
+}
+
+TEST(renderer, before_nothing_the_face_alone_is_opaque)
+{
+    const render_look nothing = { .backdrop = BACKDROP_NOTHING };
+    stage s;
+
+    open_stage(&s);
+    image studio = picture(&s, 0, CAMERA_FRONT), im = dressed(&s, &nothing);
+    assert_int_equal(pixel(&im, 0, 0)[3], 0);
+    assert_int_equal(pixel(&studio, 0, 0)[3], 255);
+    assert_memory_equal(pixel(&im, SIZE / 2, SIZE / 2), pixel(&studio, SIZE / 2, SIZE / 2), 4);
+    image_free(&studio);
+    image_free(&im);
+    close_stage(&s);
+}
+
+/* Twice as high as wide: of four rows the two in the middle are seen. */
+TEST(renderer, a_picture_fills_the_frame_from_its_middle)
+{
+    static const uint8_t rows[4][3] = { { 255, 0, 0 }, { 0, 255, 0 }, { 0, 0, 255 }, { 255, 0, 0 } };
+    stage s;
+    image wall;
+
+    open_stage(&s);
+    assert_int_equal(image_create(&wall, 128, 256), FAP_OK);
+    for (int y = 0; y < 256; y++)
+        for (int x = 0; x < 128; x++)
+            memcpy(wall.rgba + 4 * (y * 128 + x), rows[y / 64], 3);
+    image im = dressed(&s, &(render_look){ .backdrop = BACKDROP_PICTURE, .picture = &wall });
+    assert_memory_equal(pixel(&im, 2, 10), rows[1], 3);
+    assert_memory_equal(pixel(&im, 2, SIZE - 10), rows[2], 3);
+    image_free(&im);
+    image_free(&wall);
+    close_stage(&s);
+}
+
+TEST(renderer, the_look_can_be_taken_off_again)
+{
+    const render_look colour = { .backdrop = BACKDROP_COLOUR }, plain = { 0 };
+    stage s;
+
+    open_stage(&s);
+    image before = picture(&s, 0, CAMERA_FRONT), black = dressed(&s, &colour), after = dressed(&s, &plain);
+    assert_memory_not_equal(before.rgba, black.rgba, SIZE * SIZE * 4);
+    assert_memory_equal(before.rgba, after.rgba, SIZE * SIZE * 4);
+    image_free(&before);
+    image_free(&black);
+    image_free(&after);
+    close_stage(&s);
+}
+
+/* The built-in face has none. */
+TEST(renderer, a_skin_needs_texture_coordinates)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    stage s;
+    image skin;
+
+    open_stage(&s);
+    assert_int_equal(image_create(&skin, 2, 2), FAP_OK);
+    assert_int_equal(renderer_dress(s.renderer, &(render_look){ .skin = &skin }, where), FAP_E_DATA);
+    assert_non_null(strstr(where, "texture coordinates"));
+    image im = picture(&s, 0, CAMERA_FRONT); /* the look before stays */
+    assert_true(is_skin(&im, SIZE / 2, SIZE / 2));
+    image_free(&im);
+    image_free(&skin);
+    close_stage(&s);
+}

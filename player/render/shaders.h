@@ -8,6 +8,7 @@
 #define PLAYER_RENDER_SHADERS_H
 
 #include "player/render/lamps.h"
+#include "player/render/look.h"
 
 /* clang-format off */
 
@@ -62,23 +63,41 @@ static const char studio_vertex_source[] =
     "    gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);\n"
     "}\n";
 
-/* The studio is brighter behind the face's key side. */
-static const char studio_fragment_source[] =
-    "#version 330 core\n"
-    "uniform sampler2D drawn;\n"
-    "uniform vec4 place;\n"
-    "uniform bool first_on_top;\n"
-    "out vec4 colour;\n"
-    "void main() {\n"
-    "    vec2 at = gl_FragCoord.xy - place.xy;\n" /* halves: exact, so that either order gives the same bits */
-    "    at.y = first_on_top ? place.w - at.y : at.y;\n"
-    "    at /= place.zw;\n"
-    "    vec2 d = 2 * at - vec2(0.9, 1.15);\n"
-    "    float far = dot(d, d);\n"
-    "    vec3 studio = mix(vec3(0.34, 0.38, 0.43), vec3(0.73, 0.76, 0.79), 1 / (1 + far * (0.9 + 0.45 * far)));\n"
-    "    vec4 face = texture(drawn, at);\n"
-    "    colour = vec4(face.rgb + (1 - face.a) * studio, 1);\n"
-    "}\n";
+/* What is behind the face, at @at; @cover: of a picture, what of it is seen. */
+#define BEHIND_STUDIO \
+    /* It is brighter behind the face's key side. */ \
+    "vec4 behind(vec2 at) {\n" \
+    "    vec2 d = 2 * at - vec2(0.9, 1.15);\n" \
+    "    float far = dot(d, d);\n" \
+    "    return vec4(mix(vec3(0.34, 0.38, 0.43), vec3(0.73, 0.76, 0.79), 1 / (1 + far * (0.9 + 0.45 * far))), 1);\n" \
+    "}\n"
+#define BEHIND_COLOUR "uniform vec4 plain;\nvec4 behind(vec2 at) { return plain; }\n"
+#define BEHIND_PICTURE \
+    "uniform sampler2D picture;\n" \
+    "uniform vec4 cover;\n" \
+    "vec4 behind(vec2 at) { return vec4(texture(picture, cover.xy + cover.zw * vec2(at.x, 1 - at.y)).rgb, 1); }\n"
+#define BEHIND_NOTHING "vec4 behind(vec2 at) { return vec4(0); }\n"
+
+/* Over nothing colours stay as they are where the face fades: the alpha says how much of them there is. */
+#define STUDIO_FRAGMENT(BEHIND, FINISH) \
+    "#version 330 core\n" \
+    "uniform sampler2D drawn;\n" \
+    "uniform vec4 place;\n" \
+    "uniform bool first_on_top;\n" \
+    "out vec4 colour;\n" BEHIND \
+    "void main() {\n" \
+    "    vec2 at = gl_FragCoord.xy - place.xy;\n" /* halves: exact, so that either order gives the same bits */ \
+    "    at.y = first_on_top ? place.w - at.y : at.y;\n" \
+    "    at /= place.zw;\n" \
+    "    vec4 face = texture(drawn, at);\n" \
+    "    colour = face + (1 - face.a) * behind(at);\n" FINISH "}\n"
+
+static const char *const studio_fragment_sources[] = {
+    [BACKDROP_STUDIO] = STUDIO_FRAGMENT(BEHIND_STUDIO, ""),
+    [BACKDROP_COLOUR] = STUDIO_FRAGMENT(BEHIND_COLOUR, ""),
+    [BACKDROP_PICTURE] = STUDIO_FRAGMENT(BEHIND_PICTURE, ""),
+    [BACKDROP_NOTHING] = STUDIO_FRAGMENT(BEHIND_NOTHING, "    colour.rgb /= max(colour.a, 1.0 / 255);\n"),
+};
 
 /* What vertex shaders of the face share. Position and normal are of one pose, the others never change. */
 #define FACE_VERTEX \
@@ -100,48 +119,73 @@ static const char studio_fragment_source[] =
     "    return s * (1 - 0.165 * s * s);\n" \
     "}\n"
 
-static const char face_vertex_source[] = FACE_VERTEX
-    "noperspective out vec4 facing;\n" /* and gloss */
-    "noperspective out vec4 tint;\n"   /* and how much of the sky is seen */
-    "noperspective out vec2 lamps;\n"  /* how much of the key is seen; how much of the head this is */
-    "void main() {\n"
-    "    bool is_teeth = surface.z > 2.5 && surface.z < 4.5, is_skin = surface.z < 0.5 || surface.z > 4.5;\n"
-    "    float open = surface.x / 255;\n"
-    "    /* Where the sky is hidden light comes from skin, and is red. */\n"
-    "    vec3 deep = mix(vec3(1), vec3(1.0, 0.72, 0.66), is_skin ? (1 - open) * open * 2.4 : 0.0);\n"
-    "    float near = is_teeth ? 0.02 : 0.25;\n"
-    "    facing = vec4(normal, paint.a);\n"
-    "    tint = vec4(paint.rgb * paint.rgb * deep, open);\n"
-    "    lamps.x = mix(near, 1.0, smoothstep(0.0, 0.62, open)) * (is_teeth ? 1.0 : surface.y / 255);\n"
-    "    lamps.y = smoothstep(0.02, 0.45, surface.w / 255);\n"
-    "    gl_Position = view_projection * vec4(position, 1);\n"
-    "}\n";
+/* @define: "#define TEXTURED\n", where a picture takes the place of the skin's paint, or "". */
+#define SKIN_VERTEX(DEFINE) FACE_VERTEX DEFINE \
+    "noperspective out vec4 facing;\n" /* and gloss */ \
+    "noperspective out vec4 tint;\n"   /* and how much of the sky is seen */ \
+    "noperspective out vec2 lamps;\n"  /* how much of the key is seen; how much of the head this is */ \
+    "#ifdef TEXTURED\n" \
+    "layout(location = 5) in vec2 uv;\n" \
+    "out vec3 on_skin;\n" /* rows from the top; 1: skin */ \
+    "#endif\n" \
+    "void main() {\n" \
+    "    bool is_teeth = surface.z > 2.5 && surface.z < 4.5, is_skin = surface.z < 0.5 || surface.z > 4.5;\n" \
+    "    float open = surface.x / 255;\n" \
+    "    /* Where the sky is hidden light comes from skin, and is red. */\n" \
+    "    vec3 deep = mix(vec3(1), vec3(1.0, 0.72, 0.66), is_skin ? (1 - open) * open * 2.4 : 0.0);\n" \
+    "    float near = is_teeth ? 0.02 : 0.25;\n" \
+    "    facing = vec4(normal, paint.a);\n" \
+    "    tint = vec4(paint.rgb * paint.rgb, open);\n" \
+    "#ifdef TEXTURED\n" \
+    "    on_skin = vec3(uv.x, 1 - uv.y, surface.z < 0.5 ? 1 : 0);\n" \
+    "    tint.rgb = mix(tint.rgb, vec3(1), on_skin.z);\n" \
+    "#endif\n" \
+    "    tint.rgb *= deep;\n" \
+    "    lamps.x = mix(near, 1.0, smoothstep(0.0, 0.62, open)) * (is_teeth ? 1.0 : surface.y / 255);\n" \
+    "    lamps.y = smoothstep(0.02, 0.45, surface.w / 255);\n" \
+    "    gl_Position = view_projection * vec4(position, 1);\n" \
+    "}\n"
+
+static const char face_vertex_source[] = SKIN_VERTEX("");
+static const char textured_vertex_source[] = SKIN_VERTEX("#define TEXTURED\n");
 
 /* The key's wrap is widest for red: light that travels under the skin keeps the edges of its shade warm. */
-static const char face_fragment_source[] =
-    "#version 330 core\n" LIGHTS
-    "noperspective in vec4 facing, tint;\n"
-    "noperspective in vec2 lamps;\n"
-    "uniform vec3 view, half_key;\n"
-    "out vec4 colour;\n"
-    "void main() {\n"
-    "    vec3 n = facing.xyz * (1.5 - 0.5 * dot(facing.xyz, facing.xyz));\n" /* nearly of length 1 already */
-    "    float open = tint.a, seen = lamps.x, gloss = facing.w;\n"
-    "    vec3 key = max(dot(n, key_from) * vec3(0.76, 0.84, 0.88) + vec3(0.24, 0.16, 0.12), 0);\n"
-    "    vec3 through = seen * (vec3(1.25, 1.0, 0.94) + seen * vec3(-0.25, 0.0, 0.06));\n"
-    "    float fill = max(0.86 * dot(n, fill_from) + 0.14, 0), rim = max(dot(n, rim_from), 0);\n"
-    "    vec3 light = open * (mix(ground, sky, 0.5 + 0.5 * n.y) + rim * rim_light + fill * fill_light);\n"
-    "    light += key * (0.4 + 0.6 * key) * through * key_light;\n"
-    "\n"
-    "    float h = max(dot(n, half_key), 0), graze = max(1 - dot(n, view), 0);\n"
-    "    h *= h; h *= h; h *= h;\n"
-    "    float broad = h * h, sharp = broad * broad * broad;\n" /* to the 16th and the 48th */
-    "    float wet = sharp * sharp;\n"
-    "    graze *= graze;\n"
-    "    float shine = 0.045 * broad + 0.05 * sharp + gloss * gloss * 0.42 * wet;\n"
-    "    vec3 c = tint.rgb * light + key_light * (seen * shine * (1 + 3 * graze)) + sky * (open * graze * graze * 0.2);\n"
-    "    colour = vec4(on_screen(c), 1) * lamps.y;\n" /* the neck fades */
-    "}\n";
+#define SKIN_FRAGMENT(DEFINE) \
+    "#version 330 core\n" DEFINE LIGHTS \
+    "noperspective in vec4 facing, tint;\n" \
+    "noperspective in vec2 lamps;\n" \
+    "uniform vec3 view, half_key;\n" \
+    "#ifdef TEXTURED\n" \
+    "in vec3 on_skin;\n" \
+    "uniform sampler2D skin;\n" \
+    "#endif\n" \
+    "out vec4 colour;\n" \
+    "void main() {\n" \
+    "    vec3 n = facing.xyz * (1.5 - 0.5 * dot(facing.xyz, facing.xyz));\n" /* nearly of length 1 already */ \
+    "    float open = tint.a, seen = lamps.x, gloss = facing.w;\n" \
+    "    vec3 key = max(dot(n, key_from) * vec3(0.76, 0.84, 0.88) + vec3(0.24, 0.16, 0.12), 0);\n" \
+    "    vec3 through = seen * (vec3(1.25, 1.0, 0.94) + seen * vec3(-0.25, 0.0, 0.06));\n" \
+    "    float fill = max(0.86 * dot(n, fill_from) + 0.14, 0), rim = max(dot(n, rim_from), 0);\n" \
+    "    vec3 light = open * (mix(ground, sky, 0.5 + 0.5 * n.y) + rim * rim_light + fill * fill_light);\n" \
+    "    light += key * (0.4 + 0.6 * key) * through * key_light;\n" \
+    "\n" \
+    "    float h = max(dot(n, half_key), 0), graze = max(1 - dot(n, view), 0);\n" \
+    "    h *= h; h *= h; h *= h;\n" \
+    "    float broad = h * h, sharp = broad * broad * broad;\n" /* to the 16th and the 48th */ \
+    "    float wet = sharp * sharp;\n" \
+    "    graze *= graze;\n" \
+    "    float shine = 0.045 * broad + 0.05 * sharp + gloss * gloss * 0.42 * wet;\n" \
+    "    vec3 paint = tint.rgb;\n" \
+    "#ifdef TEXTURED\n" \
+    "    vec3 picture = texture(skin, on_skin.xy).rgb;\n" \
+    "    paint *= mix(vec3(1), picture * picture, on_skin.z);\n" \
+    "#endif\n" \
+    "    vec3 c = paint * light + key_light * (seen * shine * (1 + 3 * graze)) + sky * (open * graze * graze * 0.2);\n" \
+    "    colour = vec4(on_screen(c), 1) * lamps.y;\n" /* the neck fades */ \
+    "}\n"
+
+static const char face_fragment_source[] = SKIN_FRAGMENT("");
+static const char textured_fragment_source[] = SKIN_FRAGMENT("#define TEXTURED\n");
 
 /* An eyeball. @on_iris: -1..1 across the eye, from the middle of the pupil; @limbus: the iris' radius there. */
 static const char eye_vertex_source[] = FACE_VERTEX "layout(location = 4) in vec2 on_eye;\n"

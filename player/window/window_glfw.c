@@ -218,7 +218,7 @@ static int open_renderer(window *w)
         return 0;
     }
     snprintf(r->renderer, sizeof r->renderer, "%s", renderer_description(w->renderer));
-    return 1;
+    return dress_renderer(w->renderer, &w->play.opt->dress, &r->fault);
 }
 
 static const char *glfw_words(void)
