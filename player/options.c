@@ -246,6 +246,13 @@ static int set_texture(play_options *o, const char *text)
     return text[0] != '\0';
 }
 
+static int set_y4m(play_options *o, const char *text)
+{
+    (void)text;
+    o->y4m = 1;
+    return 1;
+}
+
 static int set_gl(play_options *o, const char *text)
 {
     o->gl = text;
@@ -373,6 +380,7 @@ static const option_row rows[] = {
     { "frames", set_frames, "A:B, the first frame and the one behind the last" },
     { "camera", set_camera, "front, left, right or three-quarter" },
     { "gl", set_gl, "osmesa or egl" },
+    { "y4m", set_y4m, NULL },
     { "background", set_background, "studio, none, a colour such as #204060 or a PNG file" },
     { "texture", set_texture, "a PNG file" },
     { "sheet", set_sheet, "a number from 1 to 1024" },
@@ -419,6 +427,8 @@ static const char help_text[] =
     "  NAME.png                 one picture: frame A of --frames, else the middle one\n"
     "  NAME_%04d.png            a picture of every frame\n"
     "  NAME.mp4, .webm, .mkv    a film (needs the program ffmpeg; mkv is lossless)\n"
+    "  NAME.webp, .gif          a picture that moves, for pages (needs ffmpeg)\n"
+    "  NAME.y4m, - with --y4m   uncompressed video, for other encoders\n"
     "  NAME.csv, -              a table of every frame, by default of the feature points in millimetres\n"
     "      --csv KIND           points, vertices (millimetres), weights (of the key models), faps (as "
     "shown)\n"
@@ -603,6 +613,8 @@ static int choose_sink(play_options *o)
         return refuse("either --golden or", "--sheet");
     if (o->update && !o->golden)
         return refuse("--update needs", "--golden DIR");
+    if (o->y4m && (o->golden || o->moments || o->csv || !o->output || strcmp(o->output, "-")))
+        return refuse("--y4m needs", "-o -");
     if (!o->golden && !o->output && o->csv)
         return refuse("--csv needs", "-o NAME.csv");
     if (!o->golden && !o->output)
@@ -612,6 +624,8 @@ static int choose_sink(play_options *o)
         return refuse("--sheet needs -o NAME.png, not", o->output);
     if (o->moments)
         o->sink = &sink_sheet;
+    if (o->y4m)
+        o->sink = &sink_y4m;
     if (o->csv && o->sink && o->sink != &sink_csv)
         return refuse("--csv needs -o NAME.csv, not", o->golden ? o->golden : o->output);
     return o->sink ? 1 : no_such_output(o);

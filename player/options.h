@@ -30,6 +30,7 @@ typedef struct play_options {
     int has_range;    /* --frames */
     int64_t from, to; /* to is INT64_MAX where it was left open */
     int moments;      /* --sheet; 0: none */
+    int y4m;          /* what goes to standard output is video */
     int update, tolerance;
     double audio_offset_ms;       /* of the window: how much later the sound begins than the stream */
     int loop, paused, fullscreen; /* how the window begins */

@@ -265,7 +265,7 @@ TEST(play_options, wrong_combinations_are_refused)
     refuses("a.fap --audio-offset nan");
     refuses("-o a.png");
     refuses("a.fap b.fap -o a.png");
-    refuses("a.fap -o a.gif");
+    refuses("a.fap -o a.tiff");
     refuses("a.fap -o a_%s.png");
     refuses("a.fap -o a_%04d_%04d.png");
     refuses("a.fap -o a.mp4 --size 63x64");
@@ -275,9 +275,25 @@ TEST(play_options, wrong_combinations_are_refused)
     refuses("a.fap -o a_%04d.png --sheet 4");
     refuses("a.fap --sheet 4");
     refuses("a.fap --sheet 4 --golden d");
+    refuses("a.fap -o a.csv --y4m");
+    refuses("a.fap -o a.y4m --y4m");
+    refuses("a.fap --y4m");
+    refuses("a.fap -o - --y4m --csv faps");
     refuses("a.fap --no-such-option");
     refuses("a.fap -o");
     refuses("a.fap -x -o a.png");
+}
+
+TEST(play_options, a_pipe_takes_numbers_or_video)
+{
+    play_options o;
+
+    takes(&o, "a.fap -o -");
+    assert_ptr_equal(o.sink, &sink_csv);
+    takes(&o, "a.fap -o - --y4m");
+    assert_ptr_equal(o.sink, &sink_y4m);
+    takes(&o, "a.fap -o a.y4m --size 63x31");
+    assert_ptr_equal(o.sink, &sink_y4m);
 }
 
 TEST(play_options, tables_have_a_kind)

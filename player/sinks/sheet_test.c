@@ -43,7 +43,7 @@ TEST(sinks, the_name_of_the_output_chooses)
 TEST(sinks, other_names_choose_nothing)
 {
     assert_null(sink_by_name("a"));
-    assert_null(sink_by_name("a.gif"));
+    assert_null(sink_by_name("a.tiff"));
     assert_null(sink_by_name("a.png/b"));
     assert_null(sink_by_name("a_%04d.mp4"));
     assert_null(sink_by_name("a_%s.png"));

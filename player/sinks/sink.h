@@ -66,7 +66,7 @@ typedef struct play_sink {
 } play_sink;
 
 extern const play_sink sink_png, sink_png_sequence, sink_video, sink_csv, sink_glb, sink_sheet, sink_golden,
-    sink_null;
+    sink_null, sink_y4m;
 /* All of them, then NULL. */
 extern const play_sink *const play_sinks[];
 

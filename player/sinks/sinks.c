@@ -8,7 +8,7 @@
 
 const play_sink *const play_sinks[] = {
     &sink_png,   &sink_png_sequence, &sink_video, &sink_csv, &sink_glb,
-    &sink_sheet, &sink_golden,       &sink_null,  NULL,
+    &sink_sheet, &sink_golden,       &sink_null,  &sink_y4m, NULL,
 };
 
 static const struct {
@@ -19,6 +19,9 @@ static const struct {
     { ".mp4", &sink_video, NULL },
     { ".webm", &sink_video, NULL },
     { ".mkv", &sink_video, NULL },
+    { ".webp", &sink_video, NULL },
+    { ".gif", &sink_video, NULL },
+    { ".y4m", &sink_y4m, NULL },
     { ".csv", &sink_csv, NULL },
     { ".glb", &sink_glb, NULL },
     { ".null", &sink_null, NULL },

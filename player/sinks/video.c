@@ -21,7 +21,7 @@ enum { MOST_ARGUMENTS = 64, TEXT_SIZE = 64 };
 /* What is told of each kind of film; mkv is lossless, for tests and further work. */
 typedef struct film_format {
     const char *extension, *container;
-    const char *const *picture, *const *sound;
+    const char *const *picture, *const *sound; /* sound NULL: the format has none */
 } film_format;
 
 /* Tagged, because players guess the matrix of untagged films by their size. */
@@ -35,14 +35,22 @@ static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-deadline", "realtime"
                                    "8",    "-row-mt",    "1",         "-crf",     "24",
                                    "-b:v", "0",          BT709,       NULL };
 static const char *const ffv1[] = { "-c:v", "ffv1", "-pix_fmt", "bgr0", NULL };
+/* Pages show these in a loop. A palette of its own for each picture: faces need other colours than one for all leaves them. */
+static const char *const webp[] = { "-c:v",     "libwebp_anim", "-lossless", "0", "-quality", "82",
+                                    "-pix_fmt", "bgra",         "-loop",     "0", NULL };
+static const char *const gif[] = {
+    "-filter_complex",
+    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:"
+    "bayer_scale=4",
+    "-loop", "0", NULL
+};
 static const char *const aac[] = { "-c:a", "aac", "-b:a", "160k", NULL };
 static const char *const opus[] = { "-c:a", "libopus", NULL };
 static const char *const flac[] = { "-c:a", "flac", NULL };
 
 static const film_format formats[] = {
-    { ".mp4", "mp4", x264, aac },
-    { ".webm", "webm", vp9, opus },
-    { ".mkv", "matroska", ffv1, flac },
+    { ".mp4", "mp4", x264, aac },    { ".webm", "webm", vp9, opus }, { ".mkv", "matroska", ffv1, flac },
+    { ".webp", "webp", webp, NULL }, { ".gif", "gif", gif, NULL },
 };
 
 typedef struct video_state {
@@ -147,6 +155,9 @@ static int video_open(void *state, const sink_setup *setup, fault *f)
     video_state *s = state;
 
     s->setup = setup;
+    if (setup->audio && !format_of(setup->output)->sound)
+        return fault_set(f, EXIT_USAGE, "%s: this format has no sound; leave --audio away, or ask for .mp4",
+                         setup->output);
     if (out_file_open(&s->file, setup->output))
         return fault_set(f, EXIT_DATA, "%s: %s", setup->output, strerror(errno));
     return tell_everything(s) ? start_ffmpeg(s, f) : fault_set(f, EXIT_DATA, "out of memory");
@@ -190,7 +201,7 @@ static void video_close(void *state)
 
 const play_sink sink_video = {
     .name = "film",
-    .summary = "NAME.mp4, .webm, .mkv   a film (needs the program ffmpeg; mkv is lossless)",
+    .summary = "NAME.mp4, .webm, .mkv, .webp, .gif   a film (needs the program ffmpeg; mkv is lossless)",
     .needs_picture = 1,
     .state_size = sizeof(video_state),
     .open = video_open,

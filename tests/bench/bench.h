@@ -33,6 +33,7 @@ double bench_offscreen_fps_52k(void);
 double bench_offscreen_fps_default(void);
 double bench_render_overhead_ratio(void);
 double bench_startup_ms(void);
+double bench_video_x_realtime(void);
 
 /* The window's clock: how far picture and sound are apart, and how long a seek takes. */
 double bench_av_offset_ms(void);

@@ -25,12 +25,17 @@ const bench_figure bench_figures[] = {
     { "startup_ms", "ms", bench_startup_ms,
       "from starting fapplay to its end, with one picture of 512 x 512 written as PNG; default face",
       "OpenGL" },
+    { "video_x_realtime", "x", bench_video_x_realtime,
+      "fapplay of the demo take, default face, 512 x 512 mp4 with sound, from start to end of the process",
+      "ffmpeg" },
     { "av_offset_ms", "ms", bench_av_offset_ms,
-      "a minute of 66 FAPs moving at 25 Hz with its sound, SDL's dummy driver, 512 x 512 offscreen: the largest "
+      "a minute of 66 FAPs moving at 25 Hz with its sound, SDL's dummy driver, 512 x 512 offscreen: the "
+      "largest "
       "difference between the sound's position and the time of the picture when it is there",
       "SDL2, libsndfile or OpenGL" },
     { "seek_ms", "ms", bench_seek_ms,
-      "the same, playing: from a seek until its picture is there; median of 51", "SDL2, libsndfile or OpenGL" },
+      "the same, playing: from a seek until its picture is there; median of 51",
+      "SDL2, libsndfile or OpenGL" },
     { "gpio_trigger_ms", "ms", bench_gpio_trigger_ms,
       "edge to first frame posed, median; emulated machine (QEMU without KVM, gpio-sim), no picture drawn",
       "QEMU and a kernel for it (scripts/packages-ci.txt)" },

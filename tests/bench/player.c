@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * How fast a face is posed, drawn without a window and read back; what that costs beside a program that only clears, draws
- * and reads an unmoving mesh; and how long the player takes to its first picture. A ratio is measured in one run, frame by
+ * and reads an unmoving mesh. A ratio is measured in one run, frame by
  * frame in turn, and of medians: other work on the machine slows both.
  */
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <fap/derive.h>
 #include <fap/face.h>
@@ -19,9 +16,7 @@
 #include "player/render/renderer.h"
 #include "takes.h"
 
-enum { FRAMES = 120, WARM_UP = 5, STARTS = 5 };
-
-extern char **environ;
+enum { FRAMES = 120, WARM_UP = 5 };
 
 typedef struct stage {
     ict ict;
@@ -201,7 +196,8 @@ static int open_bare(bare *b, const stage *s, const fap_bank *bank, int plain)
     const GLuint depth = gl_program_make(&b->gl, depth_vertex_source, depth_fragment_source, where);
     b->program = gl_program_make(&b->gl, plain ? plain_vertex_source : face_vertex_source,
                                  plain ? plain_fragment_source : face_fragment_source, where);
-    b->studio = gl_program_make(&b->gl, studio_vertex_source, studio_fragment_source, where);
+    b->studio =
+        gl_program_make(&b->gl, studio_vertex_source, studio_fragment_sources[BACKDROP_STUDIO], where);
     b->gl.GenVertexArrays(1, &b->empty);
     if (!depth || !b->program || !b->studio || face_array_make(&b->face, &b->gl, bank, depth) ||
         face_array_send(&b->face, &b->gl, fap_bank_mesh(bank), s->position, s->normal))
@@ -301,54 +297,4 @@ double bench_render_overhead_ratio(void)
     if (plain > 0)
         bench_note("render_cost_against_one_lamp_unsmoothed", plain, "x");
     return ratio(0);
-}
-
-/* --- starting --- */
-
-/* The path of @name beside this program. */
-static int beside(const char *name, char *path, size_t room)
-{
-    const ssize_t length = readlink("/proc/self/exe", path, room - 1);
-
-    if (length <= 0)
-        return 0;
-    path[length] = '\0';
-    char *slash = strrchr(path, '/');
-    if (!slash || (size_t)(slash + 1 - path) + strlen(name) >= room)
-        return 0;
-    strcpy(slash + 1, name);
-    return 1;
-}
-
-/* Seconds from the start of the process to its end, with one picture written; negative: it failed. */
-static double time_start(char *player, char *picture)
-{
-    char *argv[] = { player,     "tests/golden/smile/stream.fap",
-                     "--frames", "0:1",
-                     "--size",   "512x512",
-                     "--quiet",  "-o",
-                     picture,    NULL };
-    const double start = bench_now_s();
-    pid_t pid;
-    int status;
-
-    if (posix_spawn(&pid, player, NULL, NULL, argv, environ) || waitpid(pid, &status, 0) != pid || status)
-        return -1;
-    return bench_now_s() - start;
-}
-
-double bench_startup_ms(void)
-{
-    char player[512], picture[512];
-    double seconds[STARTS];
-    int count = 0;
-
-    if (!beside("fapplay", player, sizeof player) || !beside("startup.png", picture, sizeof picture))
-        return -1;
-    for (int i = 0; i < STARTS; i++) {
-        seconds[count] = time_start(player, picture);
-        count += seconds[count] > 0;
-    }
-    unlink(picture);
-    return count ? 1e3 * bench_median(seconds, count) : -1;
 }

@@ -39,3 +39,30 @@ for sound in long short; do
     done
 done
 [ "$(ls "$T" | grep -c film)" -eq 3 ] || fail "temporary names are left: $(ls "$T")"
+
+# Pictures that move, in a loop and without sound.
+expect 0 $play $stream -o "$T/film.webp"
+[ "$(head -c 4 "$T/film.webp")" = RIFF ] && grep -aq ANIM "$T/film.webp" || fail "film.webp is no animation"
+[ "$(grep -ao ANMF "$T/film.webp" | wc -l)" -ge 2 ] || fail "film.webp does not move"
+expect 0 $play $stream -o "$T/film.gif"
+ffprobe -v error -count_frames -show_entries stream=codec_name,nb_read_frames -of default=nw=1 "$T/film.gif" >"$T/out"
+says '^codec_name=gif'
+says '^nb_read_frames=3$'
+grep -aq NETSCAPE2.0 "$T/film.gif" || fail "film.gif does not loop"
+expect 2 $play $stream --audio "$T/short.wav" -o "$T/silent.gif"
+[ ! -e "$T/silent.gif" ] || fail "a refused run left a picture"
+
+# Video for encoders, in a file and through a pipe: the same bytes, and the picture that a PNG shows.
+expect 0 $play $stream -o "$T/video.y4m"
+[ "$(head -n 1 "$T/video.y4m")" = "YUV4MPEG2 W64 H64 F25:1 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED" ] ||
+    fail "y4m begins with $(head -n 1 "$T/video.y4m")"
+$play $stream -o - --y4m | cmp - "$T/video.y4m" || fail "a pipe gets other video than a file"
+expect 0 $play $stream --size 63x31 -o "$T/odd.y4m"
+ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of default=nw=1 "$T/odd.y4m" >"$T/out"
+says '^nb_read_frames=3$'
+expect 0 $play $stream --frames 0:1 -o "$T/first.png"
+ffmpeg -v error -i "$T/video.y4m" -frames:v 1 -vf scale=in_color_matrix=bt709:in_range=tv -pix_fmt rgb24 "$T/back.png"
+ffmpeg -hide_banner -i "$T/first.png" -i "$T/back.png" -lavfi '[0]format=rgb24[a];[1]format=rgb24[b];[a][b]psnr' -f null - 2>&1 |
+    sed -n 's/.*average:\([0-9]*\).*/\1/p' >"$T/out"
+[ "$(cat "$T/out")" -ge 35 ] || fail "y4m and PNG differ: PSNR $(cat "$T/out")"
+[ ! -w /dev/full ] || expect 1 sh -c "$play $stream -o - --y4m >/dev/full"
