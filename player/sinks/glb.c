@@ -46,8 +46,7 @@ static int glb_open(void *state, const sink_setup *setup, fault *f)
 static int settle(glb_state *s)
 {
     glb_shape_settle(&s->shape);
-    return glb_track_open(&s->track, (uint32_t)s->setup->count,
-                          s->shape.key_count + s->shape.correction_count);
+    return glb_track_open(&s->track, (uint32_t)s->setup->count, glb_shape_target_count(&s->shape));
 }
 
 static void write_down(glb_state *s, const shown_frame *shown, const glb_motion motion[JOINT_COUNT],
@@ -88,6 +87,7 @@ static int glb_finish(void *state, sink_result *result, fault *f)
     result->has_error = 1;
     result->worst_error_mm = s->worst_mm;
     result->rms_error_mm = sqrt(s->square_mm2 / (double)s->setup->count);
+    glb_shape_fold(&s->shape, s->track.weight, s->track.frame_count, s->track.target_count);
     errno = ENOMEM;
     if (!glb_write_face(&s->rig, &s->shape, &s->track, "fapplay " FAP_VERSION_STRING, result->worst_error_mm,
                         result->rms_error_mm, s->file.stream))

@@ -24,7 +24,7 @@ static const float metre = 1e-3f;
 double glb_estimate(const fap_bank *bank, int64_t frame_count)
 {
     const fap_mesh *mesh = fap_bank_mesh(bank);
-    const double corrections = 48, targets = fap_bank_key_count(bank) + corrections;
+    const double corrections = 49, targets = fap_bank_key_count(bank) + corrections;
     double blocks = corrections * (mesh->stride / FAP_BLOCK);
 
     for (int k = 0; k < fap_bank_key_count(bank); k++)
@@ -204,7 +204,9 @@ static void put_target_name(content *c, int target)
     const fap_key *key = target < c->shape->key_count ? fap_bank_key_get(c->shape->bank, target) : NULL;
     char name[128];
 
-    if (!key)
+    if (target == c->shape->key_count + c->shape->correction_count)
+        snprintf(name, sizeof name, "correction_all");
+    else if (!key)
         snprintf(name, sizeof name, "correction_%d", target - c->shape->key_count + 1);
     else
         snprintf(name, sizeof name, "%s%s", key->kind <= FAP_KEY_UNIT ? kind[key->kind] : "", key->name);

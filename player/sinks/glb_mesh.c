@@ -194,9 +194,8 @@ static int add_group(builder *b, glb_primitive *p, glb_group group, const int jo
     add_triangles(b, p, group);
     if (!p->triangle_count)
         return 1;
-    p->target_position =
-        calloc((size_t)b->shape->key_count + (size_t)b->shape->correction_count, sizeof(int));
-    p->target_normal = calloc((size_t)b->shape->key_count + (size_t)b->shape->correction_count, sizeof(int));
+    p->target_position = calloc((size_t)glb_shape_target_count(b->shape), sizeof(int));
+    p->target_normal = calloc((size_t)glb_shape_target_count(b->shape), sizeof(int));
     if (!p->target_position || !p->target_normal)
         return 0;
     add_surface(b, p);
@@ -263,7 +262,7 @@ int glb_mesh_open(glb_mesh *m, glb_file *g, const glb_rig *rig, const glb_shape 
 {
     builder b = { .mesh = rig->mesh, .rig = rig, .shape = shape, .file = g };
 
-    *m = (glb_mesh){ .target_count = shape->key_count + shape->correction_count };
+    *m = (glb_mesh){ .target_count = glb_shape_target_count(shape) };
     int ok = open_builder(&b);
     if (ok)
         find_normals(b.mesh, b.mesh->position, b.rest_normal);

@@ -28,7 +28,8 @@ int glb_shape_open(glb_shape *s, const fap_bank *bank, const glb_rig *rig)
     s->work = calloc(2 * room * room + 2 * room, sizeof *s->work);
     s->wanted = calloc(s->length, sizeof *s->wanted);
     s->rest = calloc(s->length, sizeof *s->rest);
-    return s->correction && s->norm && s->gram && s->work && s->wanted && s->rest;
+    s->share = calloc((size_t)s->key_count + 1, sizeof *s->share);
+    return s->share && s->correction && s->norm && s->gram && s->work && s->wanted && s->rest;
 }
 
 void glb_shape_close(glb_shape *s)
@@ -39,6 +40,7 @@ void glb_shape_close(glb_shape *s)
     free(s->work);
     free(s->wanted);
     free(s->rest);
+    free(s->share);
     *s = (glb_shape){ 0 };
 }
 
@@ -101,7 +103,9 @@ static void free_of_joints(glb_shape *s, const float *position, const glb_affine
 static void free_of_keys(glb_shape *s, const float *weight)
 {
     memset(s->rest, 0, s->length * sizeof *s->rest);
-    add_keys(s, weight, s->rest);
+    for (int k = 0; k < s->key_count; k++)
+        s->share[k] = fminf(1, fmaxf(0, weight[k]));
+    add_keys(s, s->share, s->rest);
     for (size_t i = 0; i < s->length; i++)
         s->rest[i] = s->wanted[i] - s->rest[i];
 }
@@ -239,7 +243,7 @@ void glb_shape_learn(glb_shape *s, const float *position, const float *weight,
     count_coefficients(s, coefficient);
 }
 
-/* Scaled so that a weight of 1 is as far as its farthest vertex could ever go: weights stay within -1 and 1. */
+/* Scaled so that no frame asks for more than 1 or less than -1: a shape of a size that can be looked at. */
 static void scale_correction(glb_shape *s, int c)
 {
     const float most = (float)sqrt(s->gram[c * s->room + c]);
@@ -277,7 +281,7 @@ void glb_shape_fit(glb_shape *s, const float *position, const float *weight,
 
     free_of_joints(s, position, affine);
     free_of_keys(s, weight);
-    memcpy(target_weight, weight, (size_t)s->key_count * sizeof *weight);
+    memcpy(target_weight, s->share, (size_t)s->key_count * sizeof *weight);
     for (int c = 0; c < s->correction_count; c++) {
         const float w = (float)(product(s->rest, correction_at(s, c), s->length) / s->norm[c]);
         target_weight[s->key_count + c] = w;
@@ -289,11 +293,51 @@ void glb_shape_fit(glb_shape *s, const float *position, const float *weight,
     *square_mm2 = sum / s->mesh->vertex_count;
 }
 
+/* --- within 0 and 1 --- */
+
+static void find_span(const float *weight, uint32_t frame_count, int target_count, float *least, float *span)
+{
+    float most = weight[0];
+
+    *least = weight[0];
+    for (uint32_t i = 1; i < frame_count; i++) {
+        const float w = weight[(size_t)i * (size_t)target_count];
+        *least = fminf(*least, w);
+        most = fmaxf(most, w);
+    }
+    *span = most - *least;
+}
+
+void glb_shape_fold(glb_shape *s, float *weight, uint32_t frame_count, int target_count)
+{
+    memset(s->rest, 0, s->length * sizeof *s->rest);
+    for (int c = 0; c < s->correction_count; c++) {
+        float *of = weight + s->key_count + c, *v = correction_at(s, c), least, span;
+        find_span(of, frame_count, target_count, &least, &span);
+        add_scaled(s->rest, v, least, s->length);
+        for (uint32_t i = 0; i < frame_count; i++) {
+            float *w = of + (size_t)i * (size_t)target_count;
+            *w = span > 0 ? fminf(1, (*w - least) / span) : 0;
+        }
+        for (size_t i = 0; i < s->length; i++)
+            v[i] *= span;
+    }
+    for (uint32_t i = 0; s->correction_count && i < frame_count; i++)
+        weight[(size_t)i * (size_t)target_count + (size_t)(target_count - 1)] = 1;
+}
+
+int glb_shape_target_count(const glb_shape *s)
+{
+    return s->key_count + s->correction_count + (s->correction_count > 0);
+}
+
 void glb_shape_target(const glb_shape *s, int target, float *motion)
 {
+    const int c = target - s->key_count;
+
     memset(motion, 0, s->length * sizeof *motion);
-    if (target >= s->key_count) {
-        memcpy(motion, correction_at(s, target - s->key_count), s->length * sizeof *motion);
+    if (c >= 0) {
+        memcpy(motion, c < s->correction_count ? correction_at(s, c) : s->rest, s->length * sizeof *motion);
         return;
     }
     add_key(s, target, 1, motion);

@@ -190,6 +190,7 @@ class Face:
                 width = len(self.names)
                 flat = [r[0] for r in rows]
                 rows = [flat[i:i + width] for i in range(0, len(flat), width)]
+                need(all(0 <= w <= 1 for w in flat), "a weight that importers cut")
             if key[1] == "rotation":
                 need(all(abs(math.hypot(*q) - 1) < 1e-5 for q in rows), "a rotation that is none")
             need(len(rows) == len(times), "not one value a time")
