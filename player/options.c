@@ -373,7 +373,7 @@ static const option_row rows[] = {
     { "seed", set_seed, "a whole number, not negative" },
     { "no-residual", set_no_residual, NULL },
     { "blink", set_blink, NULL },
-    { "csv", set_csv, "points, vertices, weights or faps" },
+    { "csv", set_csv, "points, vertices, weights, faps or arkit" },
     { "audio", set_audio, "a sound file" },
     { "size", set_size, "WxH, each from 1 to 8192 pixels" },
     { "fps", set_rate, "frames a second, from 0.001 to 1000" },
@@ -431,7 +431,8 @@ static const char help_text[] =
     "  NAME.y4m, - with --y4m   uncompressed video, for other encoders\n"
     "  NAME.csv, -              a table of every frame, by default of the feature points in millimetres\n"
     "      --csv KIND           points, vertices (millimetres), weights (of the key models), faps (as "
-    "shown)\n"
+    "shown),\n"
+    "                           arkit (52 coefficients, as Live Link Face writes them)\n"
     "  NAME.glb                 the moving face as glTF 2.0, for Blender, three.js and viewers\n"
     "  null, NAME.null          nowhere: poses every frame and keeps nothing\n"
     "  --sheet N                N moments in one picture, -o NAME.png (- for standard output)\n"

@@ -121,6 +121,13 @@ FAP_API void fap_face_last_stats(const fap_face *face, fap_face_stats *out);
 FAP_API void fap_face_targets(const fap_fapu *fapu, const fap_frame *frame,
                               float target_mm[FAP_POINT_COUNT][3], uint8_t wanted[FAP_POINT_COUNT][3]);
 
+/**
+ * The other way round: what the face shows where @p frame asks for nothing, visemes, expressions and what goes along with
+ * commanded points among it. FAPs of state FAP_ABSENT that move a point get its place as their value, and FAP_DERIVED.
+ * @param points  of the pose that was made of @p frame, as fap_face_points() gives them
+ */
+FAP_API void fap_face_complete(const fap_bank *bank, const float points[FAP_POINT_COUNT][3], fap_frame *frame);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,6 +5,7 @@
 #ifndef FAP_FAP_H
 #define FAP_FAP_H
 
+#include <fap/arkit.h>
 #include <fap/ascii.h>
 #include <fap/bank.h>
 #include <fap/decoder.h>

@@ -13,6 +13,7 @@ typedef struct csv_state {
     out_file file;
     const sink_setup *setup;
     const csv_kind *kind;
+    void *own; /* the kind's */
 } csv_state;
 
 static int failed(const csv_state *s, fault *f)
@@ -28,9 +29,10 @@ static int csv_open(void *state, const sink_setup *setup, fault *f)
     s->kind = setup->csv ? setup->csv : csv_kinds[0];
     if (!export_fits(setup, s->kind->frame_size(setup->bank) * (double)setup->count, f))
         return 0;
+    if (s->kind->open && !s->kind->open(&s->own))
+        return fault_set(f, EXIT_DATA, "out of memory");
     if (out_file_open(&s->file, setup->output))
         return failed(s, f);
-    fputs("frame,time_s", s->file.stream);
     s->kind->put_names(s->file.stream, setup->bank);
     fputc('\n', s->file.stream);
     return 1;
@@ -42,7 +44,7 @@ static int csv_show(void *state, const shown_frame *shown, fault *f)
     char head[64];
 
     snprintf(head, sizeof head, "%" PRId64 ",%.6f", shown->number, shown->time_s);
-    s->kind->put_frame(s->file.stream, head, shown, s->setup->bank);
+    s->kind->put_frame(s->file.stream, head, shown, s->setup->bank, s->own);
     return ferror(s->file.stream) ? failed(s, f) : 1;
 }
 
@@ -56,12 +58,16 @@ static int csv_finish(void *state, sink_result *result, fault *f)
 
 static void csv_close(void *state)
 {
-    out_file_abandon(&((csv_state *)state)->file);
+    csv_state *s = state;
+
+    out_file_abandon(&s->file);
+    if (s->own)
+        s->kind->close(s->own);
 }
 
 const play_sink sink_csv = {
     .name = "csv",
-    .summary = "NAME.csv, -         points, vertices, weights or FAPs of every frame: --csv",
+    .summary = "NAME.csv, -         points, vertices, weights, FAPs or ARKit of every frame: --csv",
     .state_size = sizeof(csv_state),
     .open = csv_open,
     .show = csv_show,

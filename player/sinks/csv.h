@@ -9,14 +9,19 @@
 
 typedef struct csv_kind {
     const char *name; /* for --csv */
-    /* Names of the columns behind "frame,time_s", a comma in front of each. */
+    /* What writing needs; NULL: nothing. 0: no memory. */
+    int (*open)(void **state);
+    void (*close)(void *state);
+    /* The header's line, without its end. */
     void (*put_names)(FILE *out, const fap_bank *bank);
-    /* One frame: whole lines, each beginning with @head, "frame,time_s". */
-    void (*put_frame)(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank);
+    /* One frame: whole lines, each beginning with @head, "frame,time_s", where the header does. */
+    void (*put_frame)(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank,
+                      void *state);
     /* Bytes of a frame, roughly and rather too many. */
     double (*frame_size)(const fap_bank *bank);
 } csv_kind;
 
+extern const csv_kind csv_arkit;
 /* All of them, then NULL; the first is what is written without --csv. */
 extern const csv_kind *const csv_kinds[];
 

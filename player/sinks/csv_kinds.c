@@ -10,6 +10,8 @@
 
 #include "player/sinks/csv.h"
 
+static const char head_names[] = "frame,time_s";
+
 enum { HEAD_SIZE = 24, NUMBER_SIZE = 12 };
 
 /* --- feature points --- */
@@ -17,6 +19,7 @@ enum { HEAD_SIZE = 24, NUMBER_SIZE = 12 };
 static void put_point_names(FILE *out, const fap_bank *bank)
 {
     (void)bank;
+    fputs(head_names, out);
     for (int i = 0; i < FAP_POINT_COUNT; i++) {
         const char *name = fap_point_get(i)->name;
         fprintf(out, ",%s.x,%s.y,%s.z", name, name, name);
@@ -24,8 +27,10 @@ static void put_point_names(FILE *out, const fap_bank *bank)
 }
 
 /* Points that the face cannot carry have empty cells. */
-static void put_points(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank)
+static void put_points(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank,
+                       void *state)
 {
+    (void)state;
     fputs(head, out);
     for (int i = 0; i < FAP_POINT_COUNT; i++) {
         const float *p = shown->point[i];
@@ -43,21 +48,26 @@ static double points_size(const fap_bank *bank)
     return HEAD_SIZE + 3 * NUMBER_SIZE * FAP_POINT_COUNT;
 }
 
-static const csv_kind points = { "points", put_point_names, put_points, points_size };
+static const csv_kind points = {
+    .name = "points", .put_names = put_point_names, .put_frame = put_points, .frame_size = points_size
+};
 
 /* --- vertices: a line each, for a spreadsheet takes no hundred thousand columns --- */
 
 static void put_vertex_names(FILE *out, const fap_bank *bank)
 {
     (void)bank;
+    fputs(head_names, out);
     fputs(",vertex,x,y,z", out);
 }
 
-static void put_vertices(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank)
+static void put_vertices(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank,
+                         void *state)
 {
     const fap_mesh *mesh = fap_bank_mesh(bank);
     const float *x = shown->position, *y = x + mesh->stride, *z = y + mesh->stride;
 
+    (void)state;
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         fprintf(out, "%s,%u,%.4f,%.4f,%.4f\n", head, (unsigned)v, x[v], y[v], z[v]);
 }
@@ -67,7 +77,9 @@ static double vertices_size(const fap_bank *bank)
     return (HEAD_SIZE + 4.0 * NUMBER_SIZE) * fap_bank_mesh(bank)->vertex_count;
 }
 
-static const csv_kind vertices = { "vertices", put_vertex_names, put_vertices, vertices_size };
+static const csv_kind vertices = {
+    .name = "vertices", .put_names = put_vertex_names, .put_frame = put_vertices, .frame_size = vertices_size
+};
 
 /* --- weights of key models --- */
 
@@ -76,6 +88,7 @@ static void put_key_names(FILE *out, const fap_bank *bank)
 {
     static const char *const kind[] = { "viseme", "expression", "extra", "unit" };
 
+    fputs(head_names, out);
     for (int k = 0; k < fap_bank_key_count(bank); k++) {
         const fap_key *key = fap_bank_key_get(bank, k);
         fprintf(out, ",%s.", key->kind <= FAP_KEY_UNIT ? kind[key->kind] : "key");
@@ -84,8 +97,10 @@ static void put_key_names(FILE *out, const fap_bank *bank)
     }
 }
 
-static void put_weights(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank)
+static void put_weights(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank,
+                        void *state)
 {
+    (void)state;
     fputs(head, out);
     for (int k = 0; k < fap_bank_key_count(bank); k++)
         fprintf(out, ",%.6g", shown->weight[k]);
@@ -97,7 +112,9 @@ static double weights_size(const fap_bank *bank)
     return HEAD_SIZE + (double)NUMBER_SIZE * fap_bank_key_count(bank);
 }
 
-static const csv_kind weights = { "weights", put_key_names, put_weights, weights_size };
+static const csv_kind weights = {
+    .name = "weights", .put_names = put_key_names, .put_frame = put_weights, .frame_size = weights_size
+};
 
 /* --- FAPs --- */
 
@@ -106,6 +123,7 @@ static void put_fap_names(FILE *out, const fap_bank *bank)
     static const char *const unit[] = { "", "IRISD", "ES", "ENS", "MNS", "MW", "AU" };
 
     (void)bank;
+    fputs(head_names, out);
     fputs(",viseme.select1,viseme.select2,viseme.blend", out);
     fputs(",expression.select1,expression.intensity1,expression.select2,expression.intensity2", out);
     for (int fap = 3; fap <= FAP_COUNT; fap++)
@@ -133,11 +151,11 @@ static void put_expression(FILE *out, const fap_frame *f)
 }
 
 /* As the face shows them: interpolated in time, derived from others; a FAP without a value is an empty cell. */
-static void put_faps(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank)
+static void put_faps(FILE *out, const char *head, const shown_frame *shown, const fap_bank *bank, void *state)
 {
     const fap_frame *f = shown->frame;
 
-    (void)bank;
+    (void)bank, (void)state;
     fputs(head, out);
     put_viseme(out, f);
     put_expression(out, f);
@@ -155,11 +173,13 @@ static double faps_size(const fap_bank *bank)
     return HEAD_SIZE + NUMBER_SIZE * (FAP_COUNT + 5);
 }
 
-static const csv_kind faps = { "faps", put_fap_names, put_faps, faps_size };
+static const csv_kind faps = {
+    .name = "faps", .put_names = put_fap_names, .put_frame = put_faps, .frame_size = faps_size
+};
 
 /* --- the list --- */
 
-const csv_kind *const csv_kinds[] = { &points, &vertices, &weights, &faps, NULL };
+const csv_kind *const csv_kinds[] = { &points, &vertices, &weights, &faps, &csv_arkit, NULL };
 
 const csv_kind *csv_kind_by_name(const char *name)
 {

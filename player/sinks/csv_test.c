@@ -52,11 +52,14 @@ static void write_table(table *t, const char *name)
     t->shown.position = t->position;
     t->shown.weight = t->weight;
     t->shown.point = (const float(*)[3])t->point;
-    fputs("frame,time_s", out);
+    void *state = NULL;
+    assert_true(!kind->open || kind->open(&state));
     kind->put_names(out, t->bank);
     fputc('\n', out);
-    kind->put_frame(out, "7,0.280000", &t->shown, t->bank);
+    kind->put_frame(out, "7,0.280000", &t->shown, t->bank, state);
     fclose(out);
+    if (state)
+        kind->close(state);
 }
 
 /* Cell under @column in line @line (1: the first frame) into @out. */
@@ -197,4 +200,29 @@ TEST(csv, gigabytes_are_refused_in_front)
     assert_false(export_fits(&setup, 1.001e9, &f));
     assert_int_equal(f.exit_status, EXIT_USAGE);
     assert_non_null(strstr(f.text, "--frames"));
+}
+
+TEST(csv, arkit_is_laid_out_as_live_link_face_does)
+{
+    table t = make_table();
+
+    for (int p = 0; p < FAP_POINT_COUNT; p++)
+        memcpy(t.point[p], fap_bank_point_get(t.bank, p)->position_mm, sizeof t.point[p]);
+    t.shown.time_s = 3723.5 + 1.0 / 25;
+    t.frame.state[19] = t.frame.state[49] = t.frame.state[23] = FAP_CODED;
+    t.frame.value[19] = 1024;
+    t.frame.value[23] = 20000;
+    write_table(&t, "arkit");
+    assert_int_equal(count_of(t.text, ','), 62);
+    has(&t, "Timecode", 1, "01:02:03:32.400");
+    has(&t, "BlendShapeCount", 1, "61");
+    has(&t, "TongueOut", 1, "0.000000");
+    has(&t, "LeftEyeYaw", 1, "-0.200000");
+    has(&t, "HeadYaw", 1, "0.000000");
+    char blink[64];
+    cell_of(&t, "EyeBlinkLeft", 1, blink);
+    assert_true(strtod(blink, NULL) > 0.9);
+    cell_of(&t, "EyeBlinkRight", 1, blink);
+    assert_true(strtod(blink, NULL) < 0.05);
+    free_table(&t);
 }

@@ -93,6 +93,11 @@ double bench_temporal_jitter_mm(void);
 double bench_temporal_jitter_held_mm(void);
 double bench_pca_ccr_3(void);
 
+/* FAPs to ARKit's coefficients and back: what is lost, at the feature points and on the face; and how long it takes. */
+double bench_arkit_fap_mm(void);
+double bench_arkit_face_mm(void);
+double bench_arkit_us(void);
+
 /* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */
 void bench_wave(fap_frame *frame, int t, int step);
 

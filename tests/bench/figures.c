@@ -116,5 +116,16 @@ const bench_figure bench_figures[] = {
     { "pca_ccr_3", "share", bench_pca_ccr_3,
       "of the variance of the six expressions in three components; Yano et al. have 0.956 for six visemes",
       "a face" },
+    { "arkit_fap_mm", "mm", bench_arkit_fap_mm,
+      "FAPs to ARKit's 52 coefficients and back: RMS over all places commanded, all real streams and the "
+      "demo "
+      "take, default face; median. Below, of all streams together, the same by FAP group",
+      "a take" },
+    { "arkit_face_mm", "mm", bench_arkit_face_mm,
+      "the same of the face as shown, visemes and expressions too: mean distance of the vertices that move "
+      "by 0.1 mm or "
+      "more; median",
+      "a take" },
+    { "arkit_us", "us", bench_arkit_us, "a frame of FAPs to coefficients, demo take", "a take" },
     { NULL, NULL, NULL, NULL, NULL },
 };

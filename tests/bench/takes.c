@@ -79,7 +79,7 @@ static fap_err sink_frame(void *user, const fap_frame *f)
     return bench_take_add_frame(user, f) ? FAP_OK : FAP_E_NOMEM;
 }
 
-static int read_fap(bench_take *t, const char *path)
+static int read_fap(bench_take *t, const char *path, double least_s)
 {
     const frame_sink sink = { .put = sink_frame, .user = t };
     char where[FAP_ERROR_TEXT_SIZE];
@@ -92,16 +92,16 @@ static int read_fap(bench_take *t, const char *path)
     const fap_err err = stream_read(data, size, NULL, &summary, &sink, where);
     free(data);
     t->rate_hz = summary.header.rate_hz;
-    return err == FAP_OK && t->count && bench_take_length_s(t) >= shortest_s;
+    return err == FAP_OK && t->count && bench_take_length_s(t) >= least_s;
 }
 
-static void add_stream(bench_takes *t, const char *name)
+static void add_stream(bench_takes *t, const char *name, double least_s)
 {
     char path[512];
     bench_take *next = &t->take[t->count];
 
     snprintf(path, sizeof path, "%s/%s", streams_dir, name);
-    if (!read_fap(next, path)) {
+    if (!read_fap(next, path, least_s)) {
         free_take(next);
         return;
     }
@@ -115,14 +115,14 @@ static int is_fap(const struct dirent *entry)
     return dot && !strcmp(dot, ".fap");
 }
 
-static void add_streams(bench_takes *t)
+static void add_streams(bench_takes *t, double least_s)
 {
     struct dirent **entry;
     const int count = scandir(streams_dir, &entry, is_fap, alphasort);
 
     for (int i = 0; i < count; i++) {
         if (t->count < BENCH_MAX_TAKES - 1) /* waves may come behind them */
-            add_stream(t, entry[i]->d_name);
+            add_stream(t, entry[i]->d_name, least_s);
         free(entry[i]);
     }
     if (count >= 0)
@@ -166,9 +166,15 @@ static void add_demo(bench_takes *t)
 
 void bench_takes_add(bench_takes *t)
 {
-    add_streams(t);
+    add_streams(t, shortest_s);
     if (!t->count)
         add_demo(t);
+}
+
+void bench_takes_add_every(bench_takes *t)
+{
+    add_streams(t, 0);
+    add_demo(t);
 }
 
 /* --- what is hardest to code --- */

@@ -35,6 +35,8 @@ typedef struct bench_packet_sink {
 
 /* Adds the takes there are; none where not even the demo take is. */
 void bench_takes_add(bench_takes *t);
+/* Adds the streams however short they are, and the demo take. */
+void bench_takes_add_every(bench_takes *t);
 /* Adds 58 FAPs that never rest: 6,000 frames of sines. */
 void bench_takes_add_waves(bench_takes *t);
 void bench_takes_free(bench_takes *t);
