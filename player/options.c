@@ -438,7 +438,7 @@ static const char help_text[] =
     "  --sheet N                N moments in one picture, -o NAME.png (- for standard output)\n"
     "  --golden DIR             compare with DIR/NNNN.png; what differs is left in the folder OUT\n"
     "                           (build/golden/NAME without -o); exit 1 when anything does\n"
-    "      --update             write DIR/NNNN.png instead\n"
+    "      --update             write those DIR/NNNN.png that differ or are missing\n"
     "      --tolerance T        allowed difference of a channel, 0 to 255 (2)\n"
     "\n"
     "The stream:\n"

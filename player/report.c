@@ -26,7 +26,11 @@ static void put_golden(json *j, const sink_result *result)
     json_integer(j, "same", result->same);
     json_integer(j, "different", result->different);
     json_integer(j, "updated", result->updated);
+    json_integer(j, "missing", result->missing);
+    json_integer(j, "stale", result->stale);
     json_integer(j, "worst", result->worst);
+    json_number(j, "structure", result->structure);
+    json_string(j, "page", result->left);
     json_close(j, '}');
 }
 
@@ -119,6 +123,23 @@ static void put_json(const play_report *r, const play_options *o)
     json_close(&j, '}');
 }
 
+static void say_update(const sink_result *r, const char *golden)
+{
+    tool_note("%s: %" PRId64 " pictures written, %" PRId64 " were the same", golden, r->updated, r->same);
+    if (r->left[0])
+        tool_note("what was replaced, and by what: %s", r->left);
+}
+
+/* Golden pictures that nothing was compared with. */
+static void say_stale(const sink_result *r, const char *golden)
+{
+    if (r->stale)
+        tool_note("%s: %" PRId64
+                  " pictures there are of frames that were not shown: of a longer stream, or of other "
+                  "--frames",
+                  golden, r->stale);
+}
+
 static void say_success(const play_report *r, const play_options *o)
 {
     if (r->triggers)
@@ -126,12 +147,14 @@ static void say_success(const play_report *r, const play_options *o)
     if (!o->sink)
         return; /* a window speaks for itself */
     if (o->golden && o->update)
-        tool_note("%s: %" PRId64 " pictures written", o->golden, r->result.updated);
+        say_update(&r->result, o->golden);
     else if (o->golden)
         tool_note("%s: %" PRId64 " pictures, all the same", o->golden, r->result.same);
     else
         tool_note("%s: %" PRId64 " frame%s at %g Hz (the stream lasts %.2f s)", o->output, r->shown_frames,
                   r->shown_frames == 1 ? "" : "s", r->rate_hz, r->stream_s);
+    if (o->golden)
+        say_stale(&r->result, o->golden);
     if (r->result.has_error)
         tool_note("%s: vertices within %.3g mm of the player's, %.2g mm RMS", o->output,
                   r->result.worst_error_mm, r->result.rms_error_mm);

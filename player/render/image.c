@@ -6,6 +6,7 @@
 #include "player/render/image.h"
 
 enum { MAX_SIDE = 16384 };
+static const double least_structure = 0.95;
 
 fap_err image_create(image *im, int width, int height)
 {
@@ -56,12 +57,13 @@ fap_err image_compare(const image *a, const image *b, int tolerance, image_diffe
             memcpy(diff->rgba + 4 * i, pixel, 4);
         }
     }
+    d->structure = d->worst ? image_structure(a, b) : 1;
     return FAP_OK;
 }
 
 int image_same(const image_difference *d)
 {
-    return d->far_count * 2000 <= d->pixel_count;
+    return d->far_count * 2000 <= d->pixel_count && d->structure >= least_structure;
 }
 
 void image_blit(image *dst, const image *src, int x, int y)

@@ -26,13 +26,17 @@ fap_err image_read_png(image *im, const char *path);
 /* How far two pictures of one size are apart. */
 typedef struct image_difference {
     int worst;        /* largest difference of any channel */
+    double structure; /* as image_structure() says */
     size_t far_count; /* pixels with a channel further apart than the tolerance */
     size_t pixel_count;
 } image_difference;
 
 /* FAP_E_DATA: sizes differ. @diff may be NULL; else it becomes a picture of the differences. */
 fap_err image_compare(const image *a, const image *b, int tolerance, image_difference *d, image *diff);
-/* The measured rule for software GL: at most 0.05 % of the pixels may be further apart than the tolerance. */
+/* How alike shapes are, whatever the colours: 1 the same, 0 nothing alike. Pictures of one size. */
+double image_structure(const image *a, const image *b);
+/* The measured rule for software GL: at most 0.05 % of the pixels may be further apart than the tolerance; and shapes are the
+ * same, which noise of 2 of 255 everywhere leaves them. */
 int image_same(const image_difference *d);
 
 /* Copies @src into @dst with its top left corner at (x, y), cut at the border. */

@@ -91,6 +91,71 @@ TEST(image, png_keeps_alpha_only_where_it_means_something)
     }
 }
 
+/* A wide soft edge at @x. */
+static image edge_at(int x, int brighter)
+{
+    image im;
+
+    assert_int_equal(image_create(&im, 64, 64), FAP_OK);
+    for (int i = 0; i < 64 * 64; i++) {
+        const int from = 16 * (i % 64 - x) + 110, v = (from < 20 ? 20 : from > 200 ? 200 : from) + brighter;
+        memset(im.rgba + 4 * i, v, 3);
+    }
+    return im;
+}
+
+TEST(image, structure_is_of_shapes_and_not_of_light)
+{
+    image a = edge_at(30, 0), same = edge_at(30, 0), lit = edge_at(30, 12), moved = edge_at(36, 0);
+
+    assert_true(image_structure(&a, &same) == 1);
+    assert_true(image_structure(&a, &lit) > image_structure(&a, &moved));
+    assert_true(image_structure(&a, &moved) < 0.95);
+    image_free(&a);
+    image_free(&same);
+    image_free(&lit);
+    image_free(&moved);
+}
+
+/* However far colours may be apart, what moved is not the same. */
+TEST(image, tolerance_of_colours_is_none_of_shapes)
+{
+    image a = edge_at(30, 0), lit = edge_at(30, 3), moved = edge_at(40, 0);
+    image_difference d;
+
+    assert_int_equal(image_compare(&a, &lit, 255, &d, NULL), FAP_OK);
+    assert_true(image_same(&d));
+    assert_int_equal(image_compare(&a, &moved, 255, &d, NULL), FAP_OK);
+    assert_int_equal(d.far_count, 0);
+    assert_false(image_same(&d));
+    image_free(&a);
+    image_free(&lit);
+    image_free(&moved);
+}
+
+TEST(image, noise_of_renderers_leaves_the_structure)
+{
+    image a = edge_at(30, 0), noisy = edge_at(30, 0);
+    uint32_t seed = 1;
+
+    for (int i = 0; i < 4 * 64 * 64; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        noisy.rgba[i] = (uint8_t)(noisy.rgba[i] + (int)(seed >> 24) % 5 - 2);
+    }
+    assert_true(image_structure(&a, &noisy) > 0.95);
+    image_free(&a);
+    image_free(&noisy);
+}
+
+TEST(image, pictures_smaller_than_a_window_have_structure_too)
+{
+    image a = pattern(3, 2), b = pattern(3, 2);
+
+    assert_true(image_structure(&a, &b) == 1);
+    image_free(&a);
+    image_free(&b);
+}
+
 TEST(image, comparison_allows_a_few_pixels_and_no_more)
 {
     image a = pattern(100, 100), b = pattern(100, 100), diff;

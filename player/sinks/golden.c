@@ -1,39 +1,31 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * Compares pictures with those of a folder, NNNN.png by frame number, or makes them anew. A picture that
- * differs leaves NNNN.got.png and NNNN.diff.png in the folder behind -o, build/golden/NAME where there is
- * none.
+ * Compares pictures with those of a folder, NNNN.png by frame number, or brings the folder up to date. What differs is left
+ * with a page that shows it in the folder behind -o, build/golden/NAME where there is none; of an update, what was replaced.
  */
+#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "common/tool.h"
+#include "player/sinks/golden_report.h"
 #include "player/sinks/picture_file.h"
 #include "player/sinks/sink.h"
 
-enum { LEVEL_KEEP = 9, PATH_SIZE = 4096 };
+enum { LEVEL_KEEP = 9 };
 
 typedef struct golden_state {
     const sink_setup *setup;
-    char left[PATH_SIZE]; /* folder of what differs */
+    golden_report report;
     sink_result result;
 } golden_state;
 
-static int name_picture(char *path, const char *folder, int64_t number, const char *kind, fault *f)
+/* The last part of @golden that is not "/" or ".". */
+static void name_left(const char *golden, char left[GOLDEN_PATH_SIZE])
 {
-    if (snprintf(path, PATH_SIZE, "%s/%04" PRId64 "%s.png", folder, number, kind) < PATH_SIZE)
-        return 1;
-    return fault_set(f, EXIT_DATA, "%s: the name is too long", folder);
-}
-
-/* The last part of @path that is not "/" or ".". */
-static void name_left(golden_state *s)
-{
-    const char *golden = s->setup->golden;
     size_t end = strlen(golden);
 
     while (end && (golden[end - 1] == '/' || golden[end - 1] == '.'))
@@ -41,114 +33,147 @@ static void name_left(golden_state *s)
     size_t start = end;
     while (start && golden[start - 1] != '/')
         start--;
-    snprintf(s->left, sizeof s->left, "build/golden/%.*s", (int)(end - start), golden + start);
-}
-
-static int make_folders(const char *path, fault *f)
-{
-    char part[PATH_SIZE];
-    const size_t length = strlen(path);
-
-    for (size_t i = 1; i <= length; i++) {
-        if (path[i] != '/' && path[i] != '\0')
-            continue;
-        snprintf(part, sizeof part, "%.*s", (int)i, path);
-        if (mkdir(part, 0777) && errno != EEXIST)
-            return fault_set(f, EXIT_DATA, "%s: %s", part, strerror(errno));
-    }
-    return 1;
+    snprintf(left, GOLDEN_PATH_SIZE, "build/golden/%.*s", (int)(end - start), golden + start);
 }
 
 static int golden_open(void *state, const sink_setup *setup, fault *f)
 {
     golden_state *s = state;
+    char left[GOLDEN_PATH_SIZE];
 
     s->setup = setup;
-    if (strlen(setup->golden) >= PATH_SIZE - 64 || (setup->output && strlen(setup->output) >= PATH_SIZE - 64))
+    if (strlen(setup->golden) >= GOLDEN_PATH_SIZE - 64)
         return fault_set(f, EXIT_USAGE, "the name of the folder is too long");
-    if (setup->output)
-        snprintf(s->left, sizeof s->left, "%s", setup->output);
-    else
-        name_left(s);
-    return setup->update ? make_folders(setup->golden, f) : 1;
+    name_left(setup->golden, left);
+    if (!golden_report_open(&s->report, setup->output ? setup->output : left))
+        return fault_set(f, EXIT_USAGE, "the name of the folder is too long");
+    s->result.structure = 1;
+    return setup->update ? golden_make_folders(setup->golden, f) : 1;
 }
 
-static int update(golden_state *s, const shown_frame *shown, fault *f)
+/* --- one picture --- */
+
+static golden_verdict judge(const golden_state *s, const image *got, image *golden, const char *path,
+                            image_difference *d, image *diff)
 {
-    char path[PATH_SIZE];
+    const fap_err err = image_read_png(golden, path);
 
-    if (!name_picture(path, s->setup->golden, shown->number, "", f) ||
-        !picture_write(shown->picture, path, LEVEL_KEEP, f))
-        return 0;
-    s->result.updated++;
-    return 1;
-}
-
-static int leave(const golden_state *s, const shown_frame *shown, const image *diff, fault *f)
-{
-    char got[PATH_SIZE], differs[PATH_SIZE];
-
-    return make_folders(s->left, f) && name_picture(got, s->left, shown->number, ".got", f) &&
-           name_picture(differs, s->left, shown->number, ".diff", f) &&
-           picture_write(shown->picture, got, LEVEL_KEEP, f) &&
-           (!diff->rgba || picture_write(diff, differs, LEVEL_KEEP, f));
-}
-
-/* A golden picture that is missing, damaged or of another size differs as much as can be. */
-static int compare(const golden_state *s, const shown_frame *shown, const char *path, image *diff, int *worst)
-{
-    image golden = { 0 };
-    image_difference d;
-
-    *worst = 255;
-    fap_err err = image_read_png(&golden, path);
-    if (!err)
-        err = image_compare(&golden, shown->picture, s->setup->tolerance, &d, diff);
-    image_free(&golden);
     if (err)
-        return 0;
-    *worst = d.worst;
-    return image_same(&d);
+        return err == FAP_E_NOT_FOUND ? GOLDEN_MISSING : GOLDEN_DAMAGED;
+    if (golden->width != got->width || golden->height != got->height)
+        return GOLDEN_OTHER_SIZE;
+    if (image_compare(golden, got, s->setup->tolerance, d, diff))
+        return GOLDEN_DAMAGED; /* no memory for the difference */
+    return image_same(d) ? GOLDEN_SAME : GOLDEN_DIFFERS;
+}
+
+static void count(sink_result *r, const golden_finding *g)
+{
+    const image_difference *d = &g->difference;
+    const int compared = g->verdict == GOLDEN_SAME || g->verdict == GOLDEN_DIFFERS;
+
+    r->same += g->verdict == GOLDEN_SAME;
+    r->different += g->verdict != GOLDEN_SAME;
+    r->missing += g->verdict == GOLDEN_MISSING;
+    r->worst = !compared ? 255 : d->worst > r->worst ? d->worst : r->worst;
+    r->structure = !compared ? 0 : d->structure < r->structure ? d->structure : r->structure;
+}
+
+/* New pictures of an update are no findings: there is nothing to compare them with. */
+static int leave(golden_state *s, const golden_finding *g, const image *golden, const image *got,
+                 const image *diff, fault *f)
+{
+    if (g->verdict == GOLDEN_SAME || (s->setup->update && g->verdict == GOLDEN_MISSING))
+        return 1;
+    return golden_report_add(&s->report, g, golden->rgba ? golden : NULL, got,
+                             g->verdict == GOLDEN_DIFFERS ? diff : NULL, f);
+}
+
+/* What is the same stays as it is: nobody wants new bytes for it in a repository. */
+static int update(golden_state *s, const golden_finding *g, const image *got, const char *path, fault *f)
+{
+    if (!s->setup->update || g->verdict == GOLDEN_SAME)
+        return 1;
+    s->result.updated++;
+    return picture_write(got, path, LEVEL_KEEP, f);
 }
 
 static int golden_show(void *state, const shown_frame *shown, fault *f)
 {
     golden_state *s = state;
-    char path[PATH_SIZE];
-    image diff = { 0 };
-    int worst;
+    golden_finding g = { .number = shown->number, .time_s = shown->time_s };
+    image golden = { 0 }, diff = { 0 };
+    char path[GOLDEN_PATH_SIZE];
 
-    if (s->setup->update)
-        return update(s, shown, f);
-    if (!name_picture(path, s->setup->golden, shown->number, "", f))
+    if (!golden_picture_name(path, s->setup->golden, shown->number, "", f))
         return 0;
-    const int same = compare(s, shown, path, &diff, &worst);
-    const int ok = same || leave(s, shown, &diff, f);
+    g.verdict = judge(s, shown->picture, &golden, path, &g.difference, &diff);
+    count(&s->result, &g);
+    const int ok = leave(s, &g, &golden, shown->picture, &diff, f) && update(s, &g, shown->picture, path, f);
+    image_free(&golden);
     image_free(&diff);
-    s->result.same += same;
-    s->result.different += !same;
-    if (worst > s->result.worst)
-        s->result.worst = worst;
     return ok;
+}
+
+/* --- the end --- */
+
+/* The number of NNNN.png; -1: another name. */
+static int64_t number_of(const char *name)
+{
+    char *end;
+    const size_t digits = strspn(name, "0123456789");
+
+    if (digits < 4 || digits > 18 || strcmp(name + digits, ".png") != 0)
+        return -1;
+    return strtoll(name, &end, 10);
+}
+
+/* Pictures of frames that were not shown: of a longer stream, mostly. */
+static void count_stale(golden_state *s)
+{
+    DIR *folder = opendir(s->setup->golden);
+    const struct dirent *entry;
+
+    while (folder && (entry = readdir(folder))) {
+        const int64_t n = number_of(entry->d_name);
+        s->result.stale += n >= 0 && (n < s->setup->from || n >= s->setup->from + s->setup->count);
+    }
+    if (folder)
+        closedir(folder);
 }
 
 static int golden_finish(void *state, sink_result *result, fault *f)
 {
+    static const char *const advice[2] = {
+        "Where the new ones are right, run the same command with <code>--update</code>.",
+        "They have been replaced: golden is what was, got is what is there now.",
+    };
     golden_state *s = state;
+    char missing[64] = "";
 
+    count_stale(s);
+    snprintf(s->result.left, sizeof s->result.left, "%s/index.html", s->report.folder);
+    if (!s->report.count)
+        s->result.left[0] = '\0';
     *result = s->result;
-    if (!s->result.different)
+    if (!golden_report_finish(&s->report, s->setup->golden, advice[s->setup->update != 0], s->setup->count,
+                              f))
+        return 0;
+    if (!s->result.different || s->setup->update)
         return 1;
-    return fault_set(f, EXIT_DATA,
-                     "%s: %" PRId64 " of %" PRId64
-                     " pictures differ or are missing (by up to %d of 255); see %s; "
-                     "--update accepts them",
-                     s->setup->golden, s->result.different, s->setup->count, s->result.worst, s->left);
+    if (s->result.missing)
+        snprintf(missing, sizeof missing, ", %" PRId64 " of them missing", s->result.missing);
+    return fault_set(
+        f, EXIT_DATA,
+        "%s: %" PRId64 " of %" PRId64
+        " pictures differ (by up to %d of 255, structure down to %.4g%s); look at %s; --update accepts them",
+        s->setup->golden, s->result.different, s->setup->count, s->result.worst, s->result.structure, missing,
+        result->left);
 }
 
 static void golden_close(void *state)
 {
-    (void)state;
+    golden_report_close(&((golden_state *)state)->report);
 }
 
 const play_sink sink_golden = {

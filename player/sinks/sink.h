@@ -41,11 +41,17 @@ typedef struct shown_frame {
     int pass;              /* 0, and on for sinks that are shown all frames again */
 } shown_frame;
 
+enum { SINK_PATH_SIZE = 4096 + 16 };
+
 /* What became of it, for the report. */
 typedef struct sink_result {
-    int64_t same, different; /* golden pictures */
-    int64_t updated;
-    int worst; /* largest difference of a channel */
+    int64_t same, different;   /* golden pictures */
+    int64_t missing;           /* of those that are different: there is no golden one */
+    int64_t updated;           /* written anew or for the first time */
+    int64_t stale;             /* golden pictures of frames that were not shown */
+    int worst;                 /* largest difference of a channel */
+    double structure;          /* the least of image_structure() */
+    char left[SINK_PATH_SIZE]; /* the page that shows what differs; "": nothing does */
     int has_error; /* an export tells how far off it leaves vertices: the farthest of all frames, and root mean square */
     double worst_error_mm, rms_error_mm;
 } sink_result;

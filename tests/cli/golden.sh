@@ -12,7 +12,19 @@ $play tests/golden/blink/stream.fap --golden "$T/g" --update >"$T/out" 2>"$T/err
 expect 0 $play tests/golden/blink/stream.fap --golden "$T/g" -o "$T/left"
 [ ! -e "$T/left" ] || fail "the same pictures left something"
 expect 1 $play tests/golden/jaw/stream.fap --golden "$T/g" -o "$T/left"
-[ -s "$T/left/0000.got.png" ] && [ -s "$T/left/0000.diff.png" ] || fail "a difference left nothing to see"
+for kind in golden got diff side; do
+    [ -s "$T/left/0000.$kind.png" ] || fail "a difference left no 0000.$kind.png"
+done
+cmp -s "$T/left/0000.golden.png" "$T/left/0000.got.png" && fail "got is golden"
+grep -q '1 of 1 pictures differ' "$T/left/index.html" || fail "the page says $(grep -o '[0-9]* of [0-9]*' "$T/left/index.html")"
+for name in $(grep -o '"[0-9]*\.[a-z]*\.png"' "$T/left/index.html" | tr -d '"'); do
+    [ -s "$T/left/$name" ] || fail "the page shows $name, which is not there"
+done
+expect 1 $play tests/golden/blink/stream.fap --frames 1:2 --golden "$T/g" -o "$T/left" --camera left
+[ ! -e "$T/left/0000.got.png" ] || fail "a picture of the comparison before is left"
+says 'structure down to 0\.'
+expect 0 $play tests/golden/blink/stream.fap --golden "$T/g" -o "$T/left"
+[ ! -e "$T/left/index.html" ] || fail "the page of the comparison before is left"
 
 rm "$T/g/0002.png"                              # one is missing
 expect 1 $play tests/golden/blink/stream.fap --golden "$T/g" -o "$T/left"
@@ -22,3 +34,24 @@ expect 1 $play tests/golden/blink/stream.fap --golden "$T/g" -o "$T/left" --json
 says '"different": 1'
 expect 1 $play --size 65x65 tests/golden/blink/stream.fap --golden "$T/g" -o "$T/left"
 says '3 of 3'
+
+# An update writes what changed and nothing else, and shows what it replaced.
+expect 0 $play tests/golden/blink/stream.fap --golden "$T/u" --update
+touch -d '2 hours ago' "$T/u"/*.png
+cp -p "$T/u/0000.png" "$T/before.png"
+cp "$T/g/0000.png" "$T/u/0001.png"
+expect 0 $play tests/golden/blink/stream.fap --golden "$T/u" --update -o "$T/replaced"
+says '1 pictures written, 2 were the same'
+[ ! "$T/u/0000.png" -nt "$T/before.png" ] || fail "a picture that was the same was written"
+grep -q 'They have been replaced' "$T/replaced/index.html" || fail "the page of an update says something else"
+
+# Pictures of a longer stream are mentioned, and harm nobody.
+cp "$T/u/0000.png" "$T/u/0009.png"
+cp "$T/u/0000.png" "$T/u/notes.png"
+expect 0 $play tests/golden/blink/stream.fap --golden "$T/u"
+says '1 pictures there are of frames that were not shown'
+
+# Names that HTML would take for its own.
+mkdir "$T/<i>&"
+expect 1 $play tests/golden/blink/stream.fap --golden "$T/<i>&" -o "$T/odd"
+grep -q '&lt;i&gt;&amp;' "$T/odd/index.html" || fail "the page takes a name for HTML"
