@@ -131,6 +131,7 @@ static int open_sink(player *p)
         .count = p->plan.count,
         .bank = p->scene.bank,
         .csv = o->csv,
+        .texture = o->dress.skin,
     };
     p->sink_state = calloc(1, o->sink->state_size);
     if (!p->sink_state)

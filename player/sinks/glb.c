@@ -6,6 +6,7 @@
  */
 #include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <fap/version.h>
@@ -23,11 +24,34 @@ typedef struct glb_state {
     glb_shape shape;
     glb_track track;
     double worst_mm, square_mm2; /* the sum of each frame's mean */
+    uint8_t *texture;            /* of --texture, as it is */
+    size_t texture_size;
 } glb_state;
+
+static const size_t most_texture = (size_t)64 << 20;
 
 static int failed(const glb_state *s, const char *why, fault *f)
 {
     return fault_set(f, EXIT_DATA, "%s: %s", s->setup->output, why);
+}
+
+static int read_texture(glb_state *s, fault *f)
+{
+    static const uint8_t png[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
+    const char *path = s->setup->texture;
+
+    if (!path)
+        return 1;
+    if (!fap_bank_mesh(s->setup->bank)->uv)
+        return fault_set(f, EXIT_DATA, "--texture: the face %s has no texture coordinates",
+                         fap_bank_name(s->setup->bank));
+    const fap_err err = file_read(path, most_texture, &s->texture, &s->texture_size);
+    if (err)
+        return fault_set(f, EXIT_DATA, "%s: %s", path, err == FAP_E_IO ? strerror(errno) : fap_strerror(err));
+    if (s->texture_size < sizeof png || memcmp(s->texture, png, sizeof png) != 0)
+        return fault_set(f, EXIT_DATA, "%s: no PNG picture; others can be converted (convert in.jpg out.png)",
+                         path);
+    return 1;
 }
 
 static int glb_open(void *state, const sink_setup *setup, fault *f)
@@ -36,6 +60,8 @@ static int glb_open(void *state, const sink_setup *setup, fault *f)
 
     s->setup = setup;
     if (!export_fits(setup, glb_estimate(setup->bank, setup->count), f))
+        return 0;
+    if (!read_texture(s, f))
         return 0;
     if (!glb_rig_open(&s->rig, setup->bank) || !glb_shape_open(&s->shape, setup->bank, &s->rig))
         return failed(s, "out of memory", f);
@@ -87,10 +113,11 @@ static int glb_finish(void *state, sink_result *result, fault *f)
     result->has_error = 1;
     result->worst_error_mm = s->worst_mm;
     result->rms_error_mm = sqrt(s->square_mm2 / (double)s->setup->count);
+    const glb_about about = { "fapplay " FAP_VERSION_STRING, result->worst_error_mm, result->rms_error_mm,
+                              s->texture, s->texture_size };
     glb_shape_fold(&s->shape, s->track.weight, s->track.frame_count, s->track.target_count);
     errno = ENOMEM;
-    if (!glb_write_face(&s->rig, &s->shape, &s->track, "fapplay " FAP_VERSION_STRING, result->worst_error_mm,
-                        result->rms_error_mm, s->file.stream))
+    if (!glb_write_face(&s->rig, &s->shape, &s->track, &about, s->file.stream))
         return failed(s, strerror(errno), f);
     return out_file_commit(&s->file) ? failed(s, strerror(errno), f) : 1;
 }
@@ -103,6 +130,7 @@ static void glb_close(void *state)
     glb_track_close(&s->track);
     glb_shape_close(&s->shape);
     glb_rig_close(&s->rig);
+    free(s->texture);
 }
 
 const play_sink sink_glb = {

@@ -11,6 +11,7 @@ typedef struct content {
     const glb_rig *rig;
     const glb_shape *shape;
     const glb_track *track;
+    const glb_about *about;
     glb_file file;
     glb_mesh mesh;
     int number[JOINT_COUNT]; /* of each joint among those the face has; node 1 + number */
@@ -229,7 +230,8 @@ static void put_primitive(content *c, const glb_primitive *p, int material)
     json_open(j, "attributes", '{');
     json_integer(j, "POSITION", p->position);
     json_integer(j, "NORMAL", p->normal);
-    json_integer(j, "COLOR_0", p->colour);
+    if (p->colour >= 0)
+        json_integer(j, "COLOR_0", p->colour);
     if (p->uv >= 0)
         json_integer(j, "TEXCOORD_0", p->uv);
     json_integer(j, "JOINTS_0", p->joints);
@@ -267,6 +269,30 @@ static void put_mesh(content *c)
     json_close(j, ']');
 }
 
+static void put_texture(json *j)
+{
+    json_open(j, "baseColorTexture", '{');
+    json_integer(j, "index", 0);
+    json_close(j, '}');
+}
+
+static void put_images(content *c)
+{
+    json *j = &c->json;
+
+    json_open(j, "images", '[');
+    json_open(j, NULL, '{');
+    json_integer(j, "bufferView", glb_view(&c->file, SECTION_IMAGE));
+    json_string(j, "mimeType", "image/png");
+    json_close(j, '}');
+    json_close(j, ']');
+    json_open(j, "textures", '[');
+    json_open(j, NULL, '{');
+    json_integer(j, "source", 0);
+    json_close(j, '}');
+    json_close(j, ']');
+}
+
 static void put_materials(content *c)
 {
     static const char *const name[GROUP_COUNT] = { "skin", "eyes", "mouth", "lashes" };
@@ -279,6 +305,8 @@ static void put_materials(content *c)
         json_open(j, NULL, '{');
         json_string(j, "name", name[i]);
         json_open(j, "pbrMetallicRoughness", '{');
+        if (i == GROUP_SKIN && c->about->texture)
+            put_texture(j);
         json_number(j, "metallicFactor", 0);
         json_number(j, "roughnessFactor", (double)(0.75f - 0.6f * c->mesh.group[i].gloss));
         json_close(j, '}');
@@ -340,46 +368,50 @@ static void put_animation(content *c)
     json_close(j, ']');
 }
 
-static void put_asset(content *c, const char *generator, double worst_mm, double rms_mm)
+static void put_asset(content *c)
 {
     json *j = &c->json;
 
     json_open(j, "asset", '{');
     json_string(j, "version", "2.0");
-    json_string(j, "generator", generator);
+    json_string(j, "generator", c->about->generator);
     json_open(j, "extras", '{');
-    json_number(j, "worst_error_mm", worst_mm);
-    json_number(j, "rms_error_mm", rms_mm);
+    json_number(j, "worst_error_mm", c->about->worst_mm);
+    json_number(j, "rms_error_mm", c->about->rms_mm);
     json_close(j, '}');
     json_close(j, '}');
 }
 
-static void put_all(content *c, const char *generator, double worst_mm, double rms_mm)
+static void put_all(content *c)
 {
     json_open(&c->json, NULL, '{');
-    put_asset(c, generator, worst_mm, rms_mm);
+    put_asset(c);
     put_nodes(c);
     put_mesh(c);
     put_materials(c);
+    if (c->about->texture)
+        put_images(c);
     put_animation(c);
     glb_put_json(&c->file, &c->json);
     json_close(&c->json, '}');
 }
 
-int glb_write_face(const glb_rig *rig, const glb_shape *shape, const glb_track *track, const char *generator,
-                   double worst_mm, double rms_mm, FILE *out)
+int glb_write_face(const glb_rig *rig, const glb_shape *shape, const glb_track *track, const glb_about *about,
+                   FILE *out)
 {
-    content c = { .rig = rig, .shape = shape, .track = track };
+    content c = { .rig = rig, .shape = shape, .track = track, .about = about };
     char *text = NULL;
     size_t size = 0;
 
     number_joints(&c);
-    int ok = glb_mesh_open(&c.mesh, &c.file, rig, shape, c.number);
+    int ok = glb_mesh_open(&c.mesh, &c.file, rig, shape, c.number, about->texture != NULL);
     add_bind(&c);
     add_animation(&c);
+    if (about->texture)
+        glb_add_bytes(&c.file, SECTION_IMAGE, about->texture, about->texture_size);
     c.json.out = ok && !c.file.failed ? open_memstream(&text, &size) : NULL;
     if (c.json.out) {
-        put_all(&c, generator, worst_mm, rms_mm);
+        put_all(&c);
         ok = !fclose(c.json.out) && glb_write(&c.file, text, size, out);
     } else {
         ok = 0;

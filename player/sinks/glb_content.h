@@ -25,8 +25,16 @@ void glb_track_set(glb_track *t, uint32_t frame, double time_s, const glb_motion
 
 /* Bytes of a file, roughly and rather too many: known before anything is posed. */
 double glb_estimate(const fap_bank *bank, int64_t frame_count);
+/* What is said of a file, and what lies on the skin. */
+typedef struct glb_about {
+    const char *generator;
+    double worst_mm, rms_mm;
+    const uint8_t *texture; /* a PNG file; NULL: the face has its own colours */
+    size_t texture_size;
+} glb_about;
+
 /* Writes the file. @return 0: no memory, or @out has its error set. */
-int glb_write_face(const glb_rig *rig, const glb_shape *shape, const glb_track *track, const char *generator,
-                   double worst_mm, double rms_mm, FILE *out);
+int glb_write_face(const glb_rig *rig, const glb_shape *shape, const glb_track *track, const glb_about *about,
+                   FILE *out);
 
 #endif

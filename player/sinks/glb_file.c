@@ -24,6 +24,7 @@ static const struct {
     [SECTION_SPARSE_VALUE] = { "sparse morph targets: where to", 0, 0 },
     [SECTION_BIND] = { "inverse bind matrices", 0, 0 },
     [SECTION_ANIMATION] = { "animation", 0, 0 },
+    [SECTION_IMAGE] = { "texture", 0, 0 },
 };
 
 /* --- bytes, lowest first --- */
@@ -109,6 +110,14 @@ int glb_add_integers(glb_file *g, glb_section section, glb_component component, 
     for (size_t i = 0; i < (size_t)count * (size_t)width; i++)
         put(b, value[i], size_of(component));
     return add_accessor(g, &a);
+}
+
+void glb_add_bytes(glb_file *g, glb_section section, const uint8_t *data, size_t size)
+{
+    if (!begin(g, section, GLB_U8, size))
+        return;
+    memcpy(g->section[section].data + g->section[section].size, data, size);
+    g->section[section].size += size;
 }
 
 void glb_set_range(glb_file *g, int accessor, const float *value)
@@ -204,7 +213,7 @@ static size_t binary_size(const glb_file *g)
 }
 
 /* Empty sections have no view. */
-static int view_of(const glb_file *g, int section)
+int glb_view(const glb_file *g, int section)
 {
     int view = 0;
 
@@ -249,12 +258,12 @@ static void put_sparse_json(const glb_file *g, const glb_accessor *a, json *j)
     json_open(j, "sparse", '{');
     json_integer(j, "count", a->sparse_count);
     json_open(j, "indices", '{');
-    json_integer(j, "bufferView", view_of(g, SECTION_SPARSE_INDEX));
+    json_integer(j, "bufferView", glb_view(g, SECTION_SPARSE_INDEX));
     json_integer(j, "byteOffset", (int64_t)a->sparse_index);
     json_integer(j, "componentType", a->sparse_component);
     json_close(j, '}');
     json_open(j, "values", '{');
-    json_integer(j, "bufferView", view_of(g, SECTION_SPARSE_VALUE));
+    json_integer(j, "bufferView", glb_view(g, SECTION_SPARSE_VALUE));
     json_integer(j, "byteOffset", (int64_t)a->sparse_value);
     json_close(j, '}');
     json_close(j, '}');
@@ -266,7 +275,7 @@ static void put_accessor(const glb_file *g, const glb_accessor *a, json *j)
 
     json_open(j, NULL, '{');
     if (a->section >= 0) {
-        json_integer(j, "bufferView", view_of(g, a->section));
+        json_integer(j, "bufferView", glb_view(g, a->section));
         json_integer(j, "byteOffset", (int64_t)a->offset);
     }
     json_integer(j, "componentType", a->component);

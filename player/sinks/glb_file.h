@@ -27,6 +27,7 @@ typedef enum glb_section {
     SECTION_SPARSE_VALUE,
     SECTION_BIND,
     SECTION_ANIMATION,
+    SECTION_IMAGE,
     SECTION_COUNT
 } glb_section;
 
@@ -66,6 +67,10 @@ int glb_add_integers(glb_file *g, glb_section section, glb_component component, 
                      uint32_t count, int width, int normalised);
 /* Vectors most of which are zero: those shorter than @least become so. The smaller of two ways to store them. */
 int glb_add_motion(glb_file *g, const float (*value)[3], uint32_t count, float least);
+/* A file as it is, for what has no accessor. */
+void glb_add_bytes(glb_file *g, glb_section section, const uint8_t *data, size_t size);
+/* Number of the section's buffer view, once everything has been added. */
+int glb_view(const glb_file *g, int section);
 /* The accessor tells least and most of @value, which it was made of. */
 void glb_set_range(glb_file *g, int accessor, const float *value);
 

@@ -34,6 +34,7 @@ typedef struct builder {
     float *number;            /* [3 * vertex_count] */
     float *shape_mm, *normal; /* [3 * stride] */
     float *rest_normal;
+    int textured;
 } builder;
 
 /* --- normals --- */
@@ -143,9 +144,17 @@ static void add_colours(builder *b, glb_primitive *p)
         for (uint32_t k = 0; k < 3; k++)
             b->integer[4 * i + k] = linear16(colour[k]);
         b->integer[4 * i + 3] = 65535;
-        p->gloss += (float)colour[3] / 255 / (float)p->vertex_count;
     }
     p->colour = glb_add_integers(b->file, SECTION_COLOUR, GLB_U16, b->integer, p->vertex_count, 4, 1);
+}
+
+static float mean_gloss(const builder *b, const glb_primitive *p)
+{
+    float sum = 0;
+
+    for (uint32_t i = 0; i < p->vertex_count; i++)
+        sum += (float)b->mesh->colour[(size_t)4 * p->vertex[i] + 3] / 255;
+    return sum / (float)p->vertex_count;
 }
 
 /* glTF's v goes down, the bank's up. */
@@ -188,7 +197,7 @@ static void add_joints(builder *b, glb_primitive *p, const int joint_number[JOIN
 
 static int add_group(builder *b, glb_primitive *p, glb_group group, const int joint_number[JOINT_COUNT])
 {
-    p->uv = -1;
+    p->uv = p->colour = -1;
     if (!list_group(b, p, group))
         return 0;
     add_triangles(b, p, group);
@@ -199,7 +208,9 @@ static int add_group(builder *b, glb_primitive *p, glb_group group, const int jo
     if (!p->target_position || !p->target_normal)
         return 0;
     add_surface(b, p);
-    add_colours(b, p);
+    p->gloss = mean_gloss(b, p);
+    if (group != GROUP_SKIN || !b->textured) /* a texture is in place of them */
+        add_colours(b, p);
     if (b->mesh->uv)
         add_uv(b, p);
     add_numbers(b, p);
@@ -258,9 +269,9 @@ static void close_builder(builder *b)
 }
 
 int glb_mesh_open(glb_mesh *m, glb_file *g, const glb_rig *rig, const glb_shape *shape,
-                  const int joint_number[JOINT_COUNT])
+                  const int joint_number[JOINT_COUNT], int textured)
 {
-    builder b = { .mesh = rig->mesh, .rig = rig, .shape = shape, .file = g };
+    builder b = { .mesh = rig->mesh, .rig = rig, .shape = shape, .file = g, .textured = textured };
 
     *m = (glb_mesh){ .target_count = glb_shape_target_count(shape) };
     int ok = open_builder(&b);

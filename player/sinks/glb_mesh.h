@@ -25,9 +25,9 @@ typedef struct glb_mesh {
 } glb_mesh;
 
 glb_group glb_group_of(fap_part part);
-/* Adds everything to @g. @joint_number: of each joint in the skin. 0: no memory. Close in either case. */
+/* Adds everything to @g. @joint_number: of each joint in the skin. @textured: skin comes without colours. 0: no memory. Close in either case. */
 int glb_mesh_open(glb_mesh *m, glb_file *g, const glb_rig *rig, const glb_shape *shape,
-                  const int joint_number[JOINT_COUNT]);
+                  const int joint_number[JOINT_COUNT], int textured);
 void glb_mesh_close(glb_mesh *m);
 
 #endif

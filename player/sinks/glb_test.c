@@ -283,7 +283,7 @@ TEST(glb, files_are_no_larger_than_was_announced)
     for (uint32_t i = 0; i < FRAMES; i++)
         glb_track_set(&track, i, i * 0.04, e.motion);
     FILE *out = open_memstream(&data, &size);
-    assert_true(glb_write_face(&e.rig, &e.shape, &track, "test", 0, 0, out));
+    assert_true(glb_write_face(&e.rig, &e.shape, &track, &(glb_about){ .generator = "test" }, out));
     fclose(out);
     assert_memory_equal(data, "glTF\2\0\0\0", 8);
     assert_true((double)size <= glb_estimate(e.bank, FRAMES));

@@ -26,6 +26,7 @@ typedef struct sink_setup {
     int64_t from, count; /* the first shown frame, and how many are */
     const fap_bank *bank;
     const struct csv_kind *csv; /* what the columns of a table are */
+    const char *texture;        /* of the skin, a PNG file; NULL: none */
 } sink_setup;
 
 /* One instant. */

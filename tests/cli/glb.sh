@@ -31,6 +31,27 @@ compare "$T/demo.fap" 0.1 --fps 8
 mv "$T/v.glb" "$T/long.glb"
 compare "$T/demo.fap" 0.05 --frames 60:62
 
+# A texture lies on the skin in place of its colours, where the face has coordinates for it.
+python3 - "$T/skin.png" <<'END'
+import struct, sys, zlib
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+rows = b"".join(b"\0" + bytes((x * 8, y * 8, 128)[k] for x in range(32) for k in range(3)) for y in range(32))
+open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 32, 32, 8, 2, 0, 0, 0)) +
+                              chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+END
+expect 1 "$B/fapplay" "$T/demo.fap" --bank builtin --texture "$T/skin.png" -o "$T/skin.glb"
+says 'no texture coordinates'
+if grep -q '^makehuman:' build/default.fbank.from 2>/dev/null; then
+    face="$B/fapplay $T/demo.fap --bank build/default.fbank --quiet --frames 60:61"
+    expect 1 $face --texture "$T/demo.fap" -o "$T/skin.glb"
+    says 'no PNG'
+    expect 0 $face --texture "$T/skin.png" -o "$T/skin.glb"
+    expect 0 $face --csv vertices -o "$T/skin.csv"
+    expect 0 $check "$T/skin.glb" "$T/skin.csv" 0.05
+    grep -aq 'baseColorTexture' "$T/skin.glb" || fail "no texture in it"
+fi
+
 # The checker sees what it should: a number changed anywhere, a file cut, another take.
 size=$(stat -c %s "$T/v.glb")
 for at in $((size / 3)) $((size / 2)) $((size - 1000)); do

@@ -162,7 +162,9 @@ class Face:
         need(len(triangles) % 3 == 0 and max(triangles) < count, "triangles")
         need(0 <= p["material"] < len(f.json["materials"]), "no such material")
         need(all(abs(math.hypot(*n) - 1) < 1e-4 for n in out["NORMAL"]), "a normal that is not of length 1")
-        need(all(0 <= x <= 1 for c in out["COLOR_0"] for x in c), "colours")
+        need(all(0 <= x <= 1 for c in out.get("COLOR_0", []) for x in c), "colours")
+        material = f.json["materials"][p["material"]]["pbrMetallicRoughness"]
+        need(("COLOR_0" in out) != ("baseColorTexture" in material), "neither colours nor a texture, or both")
         need(all(abs(sum(w) - 1) < 1e-6 for w in out["WEIGHTS_0"]), "shares of joints do not add up to 1")
         for joints, weights in zip(out["JOINTS_0"], out["WEIGHTS_0"]):
             for k, w in zip(joints, weights):
