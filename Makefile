@@ -31,11 +31,11 @@ has = $(shell $(PKG) --exists $(1) 2>/dev/null && echo 1)
 # Each outside library is named in exactly one driver; a missing one switches that driver off.
 OSMESA  := $(call has,osmesa)
 EGL     := $(call has,egl)
-GL      := $(OSMESA)$(EGL)
 PNG     := $(call has,libpng)
 SNDFILE := $(call has,sndfile)
 SDL2    := $(call has,sdl2)
 GLFW    := $(call has,glfw3)
+GL      := $(OSMESA)$(EGL)$(GLFW)
 IMGUI   := $(if $(GLFW),$(if $(shell command -v $(CXX)),$(call has,imgui)))
 # Which libgpiod: v1 (1.6), v2, or none. The two APIs share no call, so each has its file.
 GPIO    := $(if $(call has,libgpiod),$(if $(shell $(PKG) --atleast-version=2 libgpiod && echo 1),v2,v1),none)
@@ -60,7 +60,7 @@ TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.
 obj       = $(patsubst %.c,$(B)/%.o,$(1))
 
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
-RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
+RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(GLFW),-lglfw) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
 PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2) $(GPIO_LIBS) $(if $(IMGUI),$(shell $(PKG) --libs imgui)) $(if $(GLFW),-lglfw) $(if $(IMGUI),-lstdc++)
 DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHAVE_EGL) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \

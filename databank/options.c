@@ -28,7 +28,7 @@ static const char usage[] =
     "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
     "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
     "      --camera=NAME   front, left, right or three-quarter\n"
-    "      --gl=NAME       osmesa or egl: OpenGL by this library (the first that works)\n"
+    "      --gl=NAME       osmesa, egl or glfw: OpenGL by this library (the first that works)\n"
     "      --masks         colours show the sides of mouth and eyes: lips red and blue, lids orange and "
     "teal\n"
     "      --regions       colours show the region map: red is the face's left, blue its upper half\n"

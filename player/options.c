@@ -470,7 +470,7 @@ static const char help_text[] =
     "                           transparent round the face (studio)\n"
     "  --texture F.png          laid on the skin by the face's texture coordinates, in place of its own "
     "colours\n"
-    "  --gl osmesa|egl          OpenGL without a window by this library (the first that works)\n"
+    "  --gl osmesa|egl|glfw     OpenGL without a window by this library (the first that works)\n"
     "  --fps R                  frames a second (as the stream)\n"
     "  --frames A:B             from frame A up to, without, frame B, at the output's rate; either may be "
     "left out\n"

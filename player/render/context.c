@@ -14,6 +14,9 @@ const gl_context_driver *const gl_context_drivers[] = {
 #ifdef HAVE_EGL
     &gl_context_egl,
 #endif
+#ifdef HAVE_GLFW
+    &gl_context_glfw,
+#endif
     NULL,
 };
 

@@ -23,7 +23,7 @@ typedef struct gl_context_driver {
     void (*close)(void *state); /* also after a failed open */
 } gl_context_driver;
 
-extern const gl_context_driver gl_context_osmesa, gl_context_egl;
+extern const gl_context_driver gl_context_osmesa, gl_context_egl, gl_context_glfw;
 /* Those in this build in the order they are tried, then NULL. */
 extern const gl_context_driver *const gl_context_drivers[];
 

@@ -6,5 +6,5 @@
 
 int render_gl_known(const char *name)
 {
-    return !strcmp(name, "osmesa") || !strcmp(name, "egl");
+    return !strcmp(name, "osmesa") || !strcmp(name, "egl") || !strcmp(name, "glfw");
 }

@@ -44,7 +44,7 @@ typedef struct render_scene {
 } render_scene;
 
 /*
- * @gl     "osmesa", "egl": how to draw without a window; NULL: the first way that works here
+ * @gl     "osmesa", "egl", "glfw": how to draw without a window; NULL: the first way that works here
  * @bank   the face; read while drawing, so it must outlive the renderer
  * @width  and @height: pixels, 1 to RENDER_MAX_SIZE
  * FAP_E_UNSUPPORTED: this build has no OpenGL, or none can be had here; @where (FAP_ERROR_TEXT_SIZE bytes) says which.
@@ -103,7 +103,7 @@ int renderer_project(const renderer *r, const render_view *view, const float pla
 /* GL_RENDERER of the context, for reports: pictures differ by it. */
 const char *renderer_description(const renderer *r);
 
-/* Whether it is "osmesa" or "egl", in this build or not. */
+/* Whether it is "osmesa", "egl" or "glfw", in this build or not. */
 int render_gl_known(const char *name);
 
 /* The names that renderer_create() takes in this build, in the order they are tried; NULL past the last. */

@@ -18,7 +18,18 @@ typedef struct stage {
     float *position, *normal;
 } stage;
 
-static void open_stage_with(stage *s, const char *gl)
+static void close_stage(stage *s)
+{
+    renderer_destroy(&s->renderer);
+    assert_null(s->renderer);
+    free(s->normal);
+    free(s->position);
+    fap_face_close(&s->face);
+    fap_bank_close(&s->bank);
+}
+
+/* 0: there is no such OpenGL here, and nothing is open. */
+static int try_stage(stage *s, const char *gl)
 {
     char where[FAP_ERROR_TEXT_SIZE];
 
@@ -28,24 +39,18 @@ static void open_stage_with(stage *s, const char *gl)
     s->position = aligned_alloc(32, 3 * sizeof(float) * fap_face_stride(s->face));
     s->normal = aligned_alloc(32, 3 * sizeof(float) * fap_face_stride(s->face));
     const fap_err err = renderer_create(&s->renderer, gl, s->bank, SIZE, SIZE, where);
-    if (err == FAP_E_UNSUPPORTED)
-        skip();
+    if (err == FAP_E_UNSUPPORTED) {
+        close_stage(s);
+        return 0;
+    }
     assert_int_equal(err, FAP_OK);
+    return 1;
 }
 
 static void open_stage(stage *s)
 {
-    open_stage_with(s, NULL);
-}
-
-static void close_stage(stage *s)
-{
-    renderer_destroy(&s->renderer);
-    assert_null(s->renderer);
-    free(s->normal);
-    free(s->position);
-    fap_face_close(&s->face);
-    fap_bank_close(&s->bank);
+    if (!try_stage(s, NULL))
+        skip();
 }
 
 static render_scene scene_of(stage *s, int jaw)
@@ -125,22 +130,22 @@ static size_t pixels_that_differ(const image *a, const image *b)
     return d.far_count;
 }
 
+/* GLFW is one of them where there is a display: see tests/cli/window.sh. */
 TEST(renderer, every_context_draws_the_same_picture)
 {
     image first = { 0 };
 
     for (int i = 0; renderer_gl_name(i); i++) {
         stage s;
-        open_stage_with(&s, renderer_gl_name(i));
+        if (!try_stage(&s, renderer_gl_name(i)))
+            continue;
         image im = picture(&s, 300, CAMERA_THREE_QUARTER);
         close_stage(&s);
-        if (!i) {
+        if (!first.rgba) {
             first = im;
             continue;
         }
-        image_difference d;
-        assert_int_equal(image_compare(&first, &im, 2, &d, NULL), FAP_OK);
-        assert_true(image_same(&d));
+        assert_memory_equal(first.rgba, im.rgba, SIZE * SIZE * 4);
         image_free(&im);
     }
     image_free(&first);

@@ -100,6 +100,15 @@ if [ "$status" -eq 0 ]; then
     [ "${far%.*}" -le 180 ] || fail "window and offscreen differ in $far pixels of 360000"
 fi
 
+# Without a window on the screen, OpenGL by GLFW draws the same.
+status=0
+"$B/fapplay" "$stream" $face --size 720x500 --frames 10:11 --gl glfw -o "$T/glfw.png" 2>/dev/null || status=$?
+[ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "--gl glfw: exit $status"
+if [ "$status" -eq 0 ] && [ -f "$T/offscreen.png" ]; then
+    far=$(compare -metric AE -fuzz 2% "$T/offscreen.png" "$T/glfw.png" null: 2>&1 || true)
+    [ "${far%.*}" -le 180 ] || fail "GLFW and the first that works differ in $far pixels of 360000"
+fi
+
 # Mouse: turns, zooms, seeks.
 start --paused
 xdotool mousemove --window "$window" 300 200 mousedown 1
