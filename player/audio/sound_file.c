@@ -59,11 +59,10 @@ static fap_err make_room(sound *s, const SF_INFO *info, char *where)
     return s->sample ? FAP_OK : FAP_E_NOMEM;
 }
 
-/* What is no number is silence. */
+/* Samples of 16 bits come back as they were; what is no number is silence. */
 static int16_t to_16_bits(float v)
 {
-    const float clipped = fmaxf(-1, fminf(1, v));
-    return v == v ? (int16_t)lrintf(clipped * 32767) : 0;
+    return v == v ? (int16_t)lrintf(fmaxf(-32768, fminf(32767, v * 32768))) : 0;
 }
 
 static float mean(const float *v, int count)
