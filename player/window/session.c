@@ -9,10 +9,6 @@
 static const double usual_speeds[] = { 0.1, 0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4 };
 enum { SPEED_COUNT = sizeof usual_speeds / sizeof *usual_speeds };
 
-static const fap_blend blend_order[] = { FAP_BLEND_GA,  FAP_BLEND_QP,  FAP_BLEND_ZHU,
-                                         FAP_BLEND_PCA, FAP_BLEND_RBF, FAP_BLEND_FAT };
-enum { BLEND_COUNT = sizeof blend_order / sizeof *blend_order };
-
 static const int64_t same_us = 2; /* times of frames are rounded: timeline.c */
 
 /* --- where --- */
@@ -119,13 +115,12 @@ static void set_blend(session *s, double value)
         s->blend = (fap_blend)value;
 }
 
+/* Through all that the library has. */
 static void next_blend(session *s)
 {
-    int i = 0;
+    const int next = (int)s->blend + 1;
 
-    while (i < BLEND_COUNT - 1 && blend_order[i] != s->blend)
-        i++;
-    s->blend = blend_order[(i + 1) % BLEND_COUNT];
+    s->blend = fap_blend_name(next) ? (fap_blend)next : (fap_blend)0;
 }
 
 static void set_expression(session *s, double value)

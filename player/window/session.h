@@ -36,7 +36,7 @@ typedef enum play_action {
     PLAY_PANELS,
     PLAY_HELP,
     PLAY_BLEND,      /* value: a fap_blend */
-    PLAY_NEXT_BLEND, /* the order of keys: ga qp zhu pca rbf fat */
+    PLAY_NEXT_BLEND, /* of those the library has, in its order */
     PLAY_EXPRESSION, /* value: of FAP 2, 1 joy to 6 surprise; 0, or the one that is shown: none */
     PLAY_FULLSCREEN,
     PLAY_SCREENSHOT,

@@ -59,7 +59,7 @@ is speed 1.5
 is loop true
 is points true
 is bars true
-is blend '"zhu"'
+is blend '"ga"'
 is camera '"left"'
 is late_frames 0
 
@@ -169,6 +169,8 @@ def heard(data):
 got, want = heard(got), heard(want)
 sys.exit(len(got) < 1000 or got[:min(len(got), 16000)] != want[:min(len(got), 16000)])
 END
+else
+    grep -q 'built without' "$T/out" "$T/err" || fail "the sound is not the clock: $(cat "$T/err")"
 fi
 
 # No device: it plays all the same.
