@@ -98,6 +98,9 @@ double bench_arkit_fap_mm(void);
 double bench_arkit_face_mm(void);
 double bench_arkit_us(void);
 
+/* The farthest vertex of a glTF export from the player's. */
+double bench_glb_worst_mm(void);
+
 /* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */
 void bench_wave(fap_frame *frame, int t, int step);
 

@@ -127,5 +127,7 @@ const bench_figure bench_figures[] = {
       "more; median",
       "a take" },
     { "arkit_us", "us", bench_arkit_us, "a frame of FAPs to coefficients, demo take", "a take" },
+    { "glb_worst_mm", "mm", bench_glb_worst_mm,
+      "fapplay -o take.glb of the demo take, default face: the farthest vertex of all key frames", "a take" },
     { NULL, NULL, NULL, NULL, NULL },
 };
