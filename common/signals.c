@@ -19,7 +19,7 @@ enum { DEADLY_COUNT = sizeof deadly / sizeof *deadly };
 /* SA_RESETHAND has put the default action back: raised again, the signal ends the program as it should. */
 static void speak(int sig)
 {
-    for (int i = 0; i < ASKED_COUNT; i++) {
+    for (int i = ASKED_COUNT - 1; i >= 0; i--) {
         const words last = atomic_load(&asked[i]);
         if (last)
             last();

@@ -10,7 +10,7 @@
 
 /*
  * @last_words is called from the handler of INT, TERM, HUP, QUIT and PIPE: nothing but what is async-signal-safe. Asking
- * twice is as asking once. Signals that somebody ignores or handles already stay as they are.
+ * twice is as asking once; who asked last speaks first: a program that writes a file ends before the file is removed. Signals that somebody ignores or handles already stay as they are.
  */
 void signals_call(void (*last_words)(void));
 

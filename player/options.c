@@ -581,9 +581,10 @@ static int take_stream(play_options *o, int argc, char **argv)
 
 static int no_such_output(const play_options *o)
 {
-    tool_error("-o %s: expected NAME.png, NAME_%%04d.png, NAME.mp4, NAME.webm, NAME.mkv, NAME.csv, NAME.glb, "
-               "- or null",
-               o->output);
+    tool_error(
+        "-o %s: expected NAME.png, NAME_%%04d.png, NAME.mp4, NAME.webm, NAME.mkv, NAME.webp, NAME.gif, "
+        "NAME.y4m, NAME.csv, NAME.glb, - or null",
+        o->output);
     return 0;
 }
 
@@ -614,6 +615,8 @@ static int choose_sink(play_options *o)
         return refuse("either --golden or", "--sheet");
     if (o->update && !o->golden)
         return refuse("--update needs", "--golden DIR");
+    if (o->golden && o->output && (!strcmp(o->output, "-") || sink_by_name(o->output)))
+        return refuse("with --golden, -o is a folder for what differs, not", o->output);
     if (o->y4m && (o->golden || o->moments || o->csv || !o->output || strcmp(o->output, "-")))
         return refuse("--y4m needs", "-o -");
     if (!o->golden && !o->output && o->csv)
@@ -654,7 +657,9 @@ static int check(play_options *o)
     if (!choose_sink(o) || !check_sizes(o))
         return 0;
     if (o->dress.backdrop == BACKDROP_NOTHING && o->sink != &sink_png && o->sink != &sink_png_sequence)
-        return refuse("--background none needs a PNG, not", o->output ? o->output : "the window");
+        return refuse("--background none needs a PNG, not", o->golden   ? "--golden"
+                                                            : o->output ? o->output
+                                                                        : "the window");
     if (o->sink && !check_offscreen(o))
         return 0;
     if (o->json && o->output && !strcmp(o->output, "-"))

@@ -125,7 +125,7 @@ static void put_json(const play_report *r, const play_options *o)
 
 static void say_update(const sink_result *r, const char *golden)
 {
-    tool_note("%s: %" PRId64 " pictures written, %" PRId64 " were the same", golden, r->updated, r->same);
+    tool_note("%s: %" PRId64 " written, %" PRId64 " the same as before", golden, r->updated, r->same);
     if (r->left[0])
         tool_note("what was replaced, and by what: %s", r->left);
 }
@@ -135,7 +135,7 @@ static void say_stale(const sink_result *r, const char *golden)
 {
     if (r->stale)
         tool_note("%s: %" PRId64
-                  " pictures there are of frames that were not shown: of a longer stream, or of other "
+                  " more there, of frames that were not shown: of a longer stream, or of other "
                   "--frames",
                   golden, r->stale);
 }
@@ -149,7 +149,8 @@ static void say_success(const play_report *r, const play_options *o)
     if (o->golden && o->update)
         say_update(&r->result, o->golden);
     else if (o->golden)
-        tool_note("%s: %" PRId64 " pictures, all the same", o->golden, r->result.same);
+        tool_note("%s: %" PRId64 " picture%s, all the same", o->golden, r->result.same,
+                  r->result.same == 1 ? "" : "s");
     else
         tool_note("%s: %" PRId64 " frame%s at %g Hz (the stream lasts %.2f s)", o->output, r->shown_frames,
                   r->shown_frames == 1 ? "" : "s", r->rate_hz, r->stream_s);

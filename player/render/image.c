@@ -6,7 +6,7 @@
 #include "player/render/image.h"
 
 enum { MAX_SIDE = 16384 };
-static const double least_structure = 0.95;
+static const double least_structure = 0.9;
 
 fap_err image_create(image *im, int width, int height)
 {

@@ -33,7 +33,7 @@ typedef struct image_difference {
 
 /* FAP_E_DATA: sizes differ. @diff may be NULL; else it becomes a picture of the differences. */
 fap_err image_compare(const image *a, const image *b, int tolerance, image_difference *d, image *diff);
-/* How alike shapes are, whatever the colours: 1 the same, 0 nothing alike. Pictures of one size. */
+/* How alike shapes are where they are least alike, whatever the light: 1 the same, 0 nothing alike. Pictures of one size. */
 double image_structure(const image *a, const image *b);
 /* The measured rule for software GL: at most 0.05 % of the pixels may be further apart than the tolerance; and shapes are the
  * same, which noise of 2 of 255 everywhere leaves them. */

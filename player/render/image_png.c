@@ -8,6 +8,13 @@
 #ifdef HAVE_PNG
 #include <png.h>
 
+/* libpng would print its words; ours come from who called. */
+static void fail(png_structp png, png_const_charp text)
+{
+    (void)text;
+    png_longjmp(png, 1);
+}
+
 static void quiet(png_structp png, png_const_charp text)
 {
     (void)png, (void)text;
@@ -29,7 +36,7 @@ static void write_rows(png_structp png, png_infop info, const image *im)
 
 fap_err image_write_png(const image *im, FILE *out, int level)
 {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, quiet);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, fail, quiet);
     png_infop info = png ? png_create_info_struct(png) : NULL;
 
     if (!info) {

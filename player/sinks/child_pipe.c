@@ -4,13 +4,28 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/signals.h"
 #include "player/sinks/child_pipe.h"
 
 extern char **environ;
+
+/* For the handler of signals; 0: none runs. A player has one. */
+static _Atomic(pid_t) running;
+
+/* It would go on writing to a file that is about to be removed, or make it again. */
+static void end_child(void)
+{
+    const pid_t pid = atomic_load(&running);
+    int status;
+
+    if (pid > 0 && !kill(pid, SIGKILL))
+        waitpid(pid, &status, 0);
+}
 
 /* The child must not inherit our write end: its input would never end. */
 static int open_pipe(int fd[2])
@@ -24,7 +39,7 @@ static int open_pipe(int fd[2])
 
 /* SIGPIPE is ours to ignore, not the child's. Its words go where ours go, its output nowhere: stdout may be a
  * report. */
-static int spawn(pid_t *pid, char *const argv[], int input)
+static int spawn(pid_t *pid, char *const argv[], int input, const sigset_t *mask)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -34,7 +49,8 @@ static int spawn(pid_t *pid, char *const argv[], int input)
     sigaddset(&defaults, SIGPIPE);
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigmask(&attributes, mask);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
@@ -46,6 +62,7 @@ static int spawn(pid_t *pid, char *const argv[], int input)
 
 int child_pipe_start(child_pipe *c, char *const argv[])
 {
+    sigset_t before;
     int fd[2];
 
     *c = (child_pipe){ 0, -1 };
@@ -53,7 +70,11 @@ int child_pipe_start(child_pipe *c, char *const argv[])
     int err = open_pipe(fd);
     if (err)
         return err;
-    err = spawn(&c->pid, argv, fd[0]);
+    signals_call(end_child);
+    signals_hold(&before);
+    err = spawn(&c->pid, argv, fd[0], &before);
+    atomic_store(&running, err ? 0 : c->pid);
+    signals_release(&before);
     close(fd[0]);
     if (err) {
         close(fd[1]);
@@ -88,6 +109,7 @@ static int wait_for(child_pipe *c)
     while (waitpid(c->pid, &status, 0) < 0)
         if (errno != EINTR)
             return -1;
+    atomic_store(&running, 0);
     c->pid = 0;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

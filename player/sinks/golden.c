@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "common/tool.h"
 #include "player/sinks/golden_report.h"
@@ -36,6 +37,28 @@ static void name_left(const char *golden, char left[GOLDEN_PATH_SIZE])
     snprintf(left, GOLDEN_PATH_SIZE, "build/golden/%.*s", (int)(end - start), golden + start);
 }
 
+/* Golden pictures among those that differ from them would be lost. */
+static int is_same_folder(const char *a, const char *b)
+{
+    struct stat x, y;
+
+    return !stat(a, &x) && !stat(b, &y) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+static int check_folders(const sink_setup *setup, fault *f)
+{
+    struct stat s;
+
+    if (setup->output &&
+        (is_same_folder(setup->golden, setup->output) || !strcmp(setup->golden, setup->output)))
+        return fault_set(f, EXIT_USAGE, "%s: what differs needs another folder than the golden pictures",
+                         setup->output);
+    if (!setup->update && (stat(setup->golden, &s) || !S_ISDIR(s.st_mode)))
+        return fault_set(f, EXIT_DATA, "%s: no such folder; --update makes it, from pictures as they are now",
+                         setup->golden);
+    return 1;
+}
+
 static int golden_open(void *state, const sink_setup *setup, fault *f)
 {
     golden_state *s = state;
@@ -44,6 +67,8 @@ static int golden_open(void *state, const sink_setup *setup, fault *f)
     s->setup = setup;
     if (strlen(setup->golden) >= GOLDEN_PATH_SIZE - 64)
         return fault_set(f, EXIT_USAGE, "the name of the folder is too long");
+    if (!check_folders(setup, f))
+        return 0;
     name_left(setup->golden, left);
     if (!golden_report_open(&s->report, setup->output ? setup->output : left))
         return fault_set(f, EXIT_USAGE, "the name of the folder is too long");
@@ -152,7 +177,7 @@ static int golden_finish(void *state, sink_result *result, fault *f)
     char missing[64] = "";
 
     count_stale(s);
-    snprintf(s->result.left, sizeof s->result.left, "%s/index.html", s->report.folder);
+    snprintf(s->result.left, sizeof s->result.left, "%s/%s", s->report.folder, golden_page_name);
     if (!s->report.count)
         s->result.left[0] = '\0';
     *result = s->result;

@@ -41,6 +41,9 @@ int golden_make_folders(const char *path, fault *f)
     return 1;
 }
 
+/* A name that nobody has by chance: it is taken away again. */
+const char golden_page_name[] = "golden-report.html";
+
 static int is_ours(const char *name)
 {
     static const char *const kinds[] = { ".golden.png", ".got.png", ".diff.png", ".side.png" };
@@ -60,7 +63,7 @@ static void sweep(const char *folder)
     char path[GOLDEN_PATH_SIZE + sizeof entry->d_name];
 
     while (d && (entry = readdir(d)))
-        if (is_ours(entry->d_name)) {
+        if (is_ours(entry->d_name) || !strcmp(entry->d_name, golden_page_name)) {
             snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
             unlink(path);
         }
@@ -274,14 +277,12 @@ static void put_page(FILE *out, const golden_report *r, const char *title, const
 
 int golden_report_finish(golden_report *r, const char *title, const char *advice, int64_t compared, fault *f)
 {
-    char path[GOLDEN_PATH_SIZE + 16];
+    char path[GOLDEN_PATH_SIZE + 32];
     out_file file;
 
-    snprintf(path, sizeof path, "%s/index.html", r->folder);
-    if (!r->count) {
-        unlink(path);
+    snprintf(path, sizeof path, "%s/%s", r->folder, golden_page_name);
+    if (!r->count)
         return 1;
-    }
     qsort(r->finding, (size_t)r->count, sizeof *r->finding, by_harm);
     if (out_file_open(&file, path))
         return fault_set(f, EXIT_DATA, "%s: %s", path, strerror(errno));

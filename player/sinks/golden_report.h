@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * What a comparison with golden pictures leaves to be looked at: of each picture that differs NNNN.golden.png, NNNN.got.png,
- * NNNN.diff.png and NNNN.side.png, all three in a row, and index.html, a page that shows them, the worst first.
+ * NNNN.diff.png and NNNN.side.png, all three in a row, and golden-report.html, a page that shows them, the worst first.
  */
 #ifndef PLAYER_SINKS_GOLDEN_REPORT_H
 #define PLAYER_SINKS_GOLDEN_REPORT_H
@@ -12,6 +12,8 @@
 #include "player/render/image.h"
 
 enum { GOLDEN_PATH_SIZE = 4096 };
+
+extern const char golden_page_name[];
 
 typedef enum golden_verdict {
     GOLDEN_SAME,
@@ -46,7 +48,7 @@ int golden_report_open(golden_report *r, const char *folder);
 int golden_report_add(golden_report *r, const golden_finding *finding, const image *golden, const image *got,
                       const image *diff, fault *f);
 /*
- * Writes the page, or takes an old one away where nothing was found.
+ * Writes the page, where anything was found.
  * @title   what was compared
  * @advice  a sentence for who reads it
  */

@@ -42,7 +42,7 @@ typedef struct shown_frame {
     int pass;              /* 0, and on for sinks that are shown all frames again */
 } shown_frame;
 
-enum { SINK_PATH_SIZE = 4096 + 16 };
+enum { SINK_PATH_SIZE = 4096 + 32 };
 
 /* What became of it, for the report. */
 typedef struct sink_result {

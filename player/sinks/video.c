@@ -6,6 +6,7 @@
  */
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +23,7 @@ enum { MOST_ARGUMENTS = 64, TEXT_SIZE = 64 };
 typedef struct film_format {
     const char *extension, *container;
     const char *const *picture, *const *sound; /* sound NULL: the format has none */
+    double most_hz;                            /* frames a second that programs follow */
 } film_format;
 
 /* Tagged, because players guess the matrix of untagged films by their size. */
@@ -35,22 +37,24 @@ static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-deadline", "realtime"
                                    "8",    "-row-mt",    "1",         "-crf",     "24",
                                    "-b:v", "0",          BT709,       NULL };
 static const char *const ffv1[] = { "-c:v", "ffv1", "-pix_fmt", "bgr0", NULL };
-/* Pages show these in a loop. A palette of its own for each picture: faces need other colours than one for all leaves them. */
+/* Pages show these in a loop. One palette, from the first two seconds at 25 Hz: with one for each picture the background
+ * flickers, and the file is four times as large. */
 static const char *const webp[] = { "-c:v",     "libwebp_anim", "-lossless", "0", "-quality", "82",
                                     "-pix_fmt", "bgra",         "-loop",     "0", NULL };
-static const char *const gif[] = {
-    "-filter_complex",
-    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:"
-    "bayer_scale=4",
-    "-loop", "0", NULL
-};
+static const char *const gif[] = { "-filter_complex",
+                                   "split[a][b];[a]trim=end_frame=50,palettegen=stats_mode=full[p];"
+                                   "[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+                                   "-loop", "0", NULL };
 static const char *const aac[] = { "-c:a", "aac", "-b:a", "160k", NULL };
 static const char *const opus[] = { "-c:a", "libopus", NULL };
 static const char *const flac[] = { "-c:a", "flac", NULL };
 
 static const film_format formats[] = {
-    { ".mp4", "mp4", x264, aac },    { ".webm", "webm", vp9, opus }, { ".mkv", "matroska", ffv1, flac },
-    { ".webp", "webp", webp, NULL }, { ".gif", "gif", gif, NULL },
+    { ".mp4", "mp4", x264, aac, INFINITY },
+    { ".webm", "webm", vp9, opus, INFINITY },
+    { ".mkv", "matroska", ffv1, flac, INFINITY },
+    { ".webp", "webp", webp, NULL, INFINITY },
+    { ".gif", "gif", gif, NULL, 50 },
 };
 
 typedef struct video_state {
@@ -158,6 +162,10 @@ static int video_open(void *state, const sink_setup *setup, fault *f)
     if (setup->audio && !format_of(setup->output)->sound)
         return fault_set(f, EXIT_USAGE, "%s: this format has no sound; leave --audio away, or ask for .mp4",
                          setup->output);
+    if (setup->rate_hz > format_of(setup->output)->most_hz)
+        return fault_set(f, EXIT_USAGE,
+                         "%s: programs slow this format down above %g frames a second; use --fps",
+                         setup->output, format_of(setup->output)->most_hz);
     if (out_file_open(&s->file, setup->output))
         return fault_set(f, EXIT_DATA, "%s: %s", setup->output, strerror(errno));
     return tell_everything(s) ? start_ffmpeg(s, f) : fault_set(f, EXIT_DATA, "out of memory");
