@@ -36,8 +36,10 @@ shot() { sleep 0.4; import -window "$window" "$T/$1.png"; }
 stop() {
     local got=0
     kill -0 $player 2>/dev/null || fail "the window is gone: $(cat "$T/err")"
-    xdotool key q
-    for _ in $(seq 100); do kill -0 $player 2>/dev/null || break; sleep 0.1; done
+    for press in $(seq 5); do       # a key may be lost where no window manager holds the focus
+        xdotool key q
+        for _ in $(seq 20); do kill -0 $player 2>/dev/null || break 2; sleep 0.1; done
+    done
     kill -9 $player 2>/dev/null && fail "q does not end it"
     wait $player || got=$?
     [ "$got" -eq "${1:-0}" ] || fail "exit $got: $(cat "$T/err")"

@@ -46,9 +46,13 @@ stop() {        # stop STATUS
     [ "$got" -eq "$1" ] || fail "exit $got, not $1: $(cat "$T/err")"
     for line in T S E; do last $line 0 || fail "$line stays high: $(cat "$chip/log")"; done
 }
+# Keys pressed while a server without a window manager moves the focus may be lost: again until it ends.
 quit() {
-    timeout 20 xdotool search --sync --name 'take.fap - fapplay' windowfocus --sync
-    xdotool key q
+    for _ in $(seq 20); do
+        timeout 20 xdotool search --sync --name 'take.fap - fapplay' windowfocus --sync || true
+        xdotool key q
+        for _ in $(seq 20); do ended && break 2; sleep 0.05; done
+    done
     stop 0
 }
 value() { sed -n "s/^ *\"$1\": \(.*[^,]\),*$/\1/p" "$T/out" | tail -n 1; }
