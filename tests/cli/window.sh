@@ -15,11 +15,14 @@ for tool in Xvfb xdotool import; do
     command -v $tool >/dev/null || skip "no $tool here (xvfb, xdotool, imagemagick)"
 done
 
-export DISPLAY=:$((100 + RANDOM % 900))
-Xvfb "$DISPLAY" -screen 0 1280x1024x24 -nolisten tcp >"$T/xvfb" 2>&1 &
+# The server takes a number that is free and says it.
+Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp >"$T/xvfb" 2>&1 3>"$T/display" &
 server=$!
 trap 'kill $server 2>/dev/null || true; rm -rf "$T"' EXIT
-for _ in $(seq 100); do xdotool getdisplaygeometry >/dev/null 2>&1 && break; sleep 0.1; done
+for _ in $(seq 100); do [ -s "$T/display" ] && break; sleep 0.1; done
+[ -s "$T/display" ] || fail "no X server: $(cat "$T/xvfb")"
+DISPLAY=:$(cat "$T/display")
+export DISPLAY
 
 # start ARGUMENTS...: a window of 720 x 594, whose face has 720 x 500 when there are panels.
 start() {
