@@ -37,7 +37,8 @@ struct panel {
 namespace
 {
 
-const float bar_height = 94, bars_width = 320, text_px = 16, small_px = 13, button = 32, edge = 14;
+const float bar_height = 94, bars_width = 320, text_px = 16, small_px = 13, button = 32, edge = 14,
+            narrow = 800;
 
 const ImVec4 back(0.085f, 0.095f, 0.115f, 1), raised(0.15f, 0.165f, 0.195f, 1), hover(0.21f, 0.23f, 0.27f, 1),
     accent(0.31f, 0.56f, 0.88f, 1), words(0.87f, 0.89f, 0.92f, 1), quiet(0.56f, 0.60f, 0.66f, 1);
@@ -174,7 +175,7 @@ void timeline_tip(const pass *d, double share)
 /* A press anywhere goes there, and follows the mouse. */
 void timeline_bar(pass *d, float width)
 {
-    const float height = 24 * d->p->scale;
+    const float height = button * d->p->scale;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const double length_s = static_cast<double>(d->s->length_us) * 1e-6;
 
@@ -325,7 +326,7 @@ void right_side(pass *d, float from)
         float width;
     } part[] = {
         { put_help, 32 },     { choose_speed, 60 }, { put_loop, 54 },
-        { choose_blend, 54 }, { choose_view, 112 }, { put_points, 66 },
+        { choose_blend, 72 }, { choose_view, 112 }, { put_points, 66 },
         { put_wire, 54 },     { put_bars, 60 },     { put_save, 58 },
     };
     const float gap = ImGui::GetStyle().ItemSpacing.x, y = ImGui::GetCursorPosY();
@@ -347,7 +348,7 @@ void button_row(pass *d)
     const float y = ImGui::GetCursorPosY();
 
     transport(d);
-    if (d->v->kbit_s_now > 0)
+    if (d->v->kbit_s_now > 0 && ImGui::GetWindowWidth() >= narrow * d->p->scale)
         snprintf(now, sizeof now, ", now %.2f", d->v->kbit_s_now);
     snprintf(text, sizeof text, "frame %" PRId64 " / %" PRId64 "  \xc2\xb7  %g Hz  \xc2\xb7  %.3g kbit/s%s",
              session_frame(d->s), d->s->frame_count, d->s->rate_hz, d->v->kbit_s, now);
@@ -388,19 +389,46 @@ void shaded_text(ImDrawList *l, ImFont *font, ImVec2 at, ImU32 ink, const char *
     l->AddText(font, font->FontSize * ImGui::GetIO().FontGlobalScale, at, ink, text);
 }
 
+float text_width(ImFont *font, const char *text)
+{
+    return font->CalcTextSizeA(font->FontSize * ImGui::GetIO().FontGlobalScale, 1e6f, 0, text).x;
+}
+
+/* Ends in dots where there is no room for all of it; letters of UTF-8 stay whole. */
+void shorten(ImFont *font, char *text, float room)
+{
+    size_t length = strlen(text);
+
+    if (text_width(font, text) <= room)
+        return;
+    while (length > 0 && text_width(font, text) > room) {
+        length--;
+        while (length > 0 && (text[length] & 0xc0) == 0x80)
+            length--;
+        memcpy(text + length, "...", 4);
+    }
+}
+
+void title_line(const pass *d, ImFont *font, float y, float alpha, char *text)
+{
+    const float x = edge * d->p->scale, right = d->s->bars ? bars_width * d->p->scale : 0;
+
+    shorten(font, text, ImGui::GetIO().DisplaySize.x - right - 2 * x);
+    shaded_text(ImGui::GetBackgroundDrawList(), font, ImVec2(x, y * d->p->scale),
+                ImGui::GetColorU32(ImVec4(1, 1, 1, alpha)), text);
+}
+
 void title(const pass *d)
 {
     char line[512];
     const panel_view *v = d->v;
-    const float x = edge * d->p->scale, step = 20 * d->p->scale;
-    ImDrawList *l = ImGui::GetBackgroundDrawList();
 
     snprintf(line, sizeof line, "%.160s%s%.160s", v->stream, v->sound[0] ? "  +  " : "", v->sound);
-    shaded_text(l, d->p->text, ImVec2(x, 10 * d->p->scale), IM_COL32(255, 255, 255, 230), line);
+    title_line(d, d->p->text, 10, 0.9f, line);
     snprintf(line, sizeof line, "%.160s  \xc2\xb7  %s  \xc2\xb7  %.2f mm before the residual%s%s", v->face,
              fap_blend_name(d->s->blend), v->error_mm, d->s->expression ? "  \xc2\xb7  " : "",
              d->s->expression ? fap_expression_name(d->s->expression) : "");
-    shaded_text(l, d->p->small, ImVec2(x, 10 * d->p->scale + step), IM_COL32(255, 255, 255, 170), line);
+    title_line(d, d->p->small, 30, 0.67f, line);
 }
 
 void message(const pass *d)
@@ -414,16 +442,54 @@ void message(const pass *d)
     ImGui::End();
 }
 
+/* What labels take up of the window. */
+struct label_places {
+    ImVec4 taken[FAP_POINT_COUNT]; /* left, top, right, bottom */
+    int count;
+};
+
+int is_free(const label_places *l, ImVec4 want)
+{
+    for (int i = 0; i < l->count; i++) {
+        const ImVec4 &t = l->taken[i];
+        if (want.x < t.z && t.x < want.z && want.y < t.w && t.y < want.w)
+            return 0;
+    }
+    return 1;
+}
+
+/* To the right of its point, else to the left, above or below; one that has no room appears when the face is nearer. */
+void put_label(const pass *d, const panel_label *b, label_places *l)
+{
+    const float aside = 5 * d->p->scale, high = small_px * d->p->scale,
+                wide = text_width(d->p->small, b->text);
+    const ImVec2 place[] = {
+        ImVec2(b->x + aside, b->y - high / 2),
+        ImVec2(b->x - aside - wide, b->y - high / 2),
+        ImVec2(b->x - wide / 2, b->y - aside - high),
+        ImVec2(b->x - wide / 2, b->y + aside),
+    };
+
+    for (const ImVec2 &at : place) {
+        const ImVec4 want(at.x, at.y, at.x + wide, at.y + high);
+        if (l->count >= FAP_POINT_COUNT || !is_free(l, want))
+            continue;
+        l->taken[l->count++] = want;
+        shaded_text(ImGui::GetBackgroundDrawList(), d->p->small, at,
+                    IM_COL32(255, 255, 255, b->faint ? 70 : 235), b->text);
+        return;
+    }
+}
+
+/* Those of the near side come first. */
 void labels(const pass *d)
 {
-    ImDrawList *l = ImGui::GetBackgroundDrawList();
-    const float aside = 5 * d->p->scale, half = small_px * d->p->scale / 2;
+    label_places l = {};
 
-    for (int i = 0; i < d->v->label_count; i++) {
-        const panel_label *b = &d->v->label[i];
-        shaded_text(l, d->p->small, ImVec2(b->x + aside, b->y - half),
-                    IM_COL32(255, 255, 255, b->faint ? 70 : 235), b->text);
-    }
+    for (int faint = 0; faint < 2; faint++)
+        for (int i = 0; i < d->v->label_count; i++)
+            if (!d->v->label[i].faint == !faint)
+                put_label(d, &d->v->label[i], &l);
 }
 
 /* --- bars of the FAPs --- */
@@ -519,18 +585,25 @@ void help(pass *d)
 {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
 
+    const float scale = d->p->scale;
+    const int small = size.y < 740 * scale; /* the usual letters would not fit above the controls */
+    const float left = size.y - bar_height * scale;
+
     ImGui::GetBackgroundDrawList()->AddRectFilled(ImVec2(0, 0), size, IM_COL32(0, 0, 0, 110));
-    ImGui::SetNextWindowPos(ImVec2(size.x / 2, (size.y - bar_height * d->p->scale) / 2), 0,
-                            ImVec2(0.5f, 0.5f));
+    ImGui::SetNextWindowPos(ImVec2(size.x / 2, left / 2), 0, ImVec2(0.5f, 0.5f));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(size.x, left - 8 * scale));
     ImGui::SetNextWindowBgAlpha(0.96f);
     ImGui::SetNextWindowFocus();
     ImGui::Begin("keys", nullptr,
-                 (fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
+                 (fixed & ~(ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollbar)) |
+                     ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushFont(small ? d->p->small : d->p->text);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6 * scale, (small ? 2 : 6) * scale));
     for (const play_key *k = play_keys; k->key; k++) {
         if (!k->label)
             continue;
         ImGui::TextColored(accent, "%s", k->label);
-        ImGui::SameLine(170 * d->p->scale);
+        ImGui::SameLine((small ? 150 : 170) * scale);
         ImGui::TextUnformatted(k->help);
     }
     ImGui::Spacing();
@@ -538,6 +611,8 @@ void help(pass *d)
     ImGui::TextColored(quiet, "drop .fap, .fba, .fbank or a sound on the window");
     if (ImGui::IsMouseClicked(0) && ImGui::IsWindowHovered())
         emit(d, PLAY_HELP, 0);
+    ImGui::PopStyleVar();
+    ImGui::PopFont();
     ImGui::End();
 }
 
@@ -552,7 +627,7 @@ void set_style(float scale)
     s.WindowRounding = s.WindowBorderSize = s.FrameBorderSize = 0;
     s.FrameRounding = s.PopupRounding = s.GrabRounding = 5;
     s.WindowPadding = ImVec2(edge, 11);
-    s.FramePadding = ImVec2(8, 7);
+    s.FramePadding = ImVec2(8, 8); /* with a line of text: a button's height */
     s.ItemSpacing = ImVec2(6, 8);
     s.ScrollbarSize = 10;
     s.ScaleAllSizes(scale);
