@@ -114,6 +114,18 @@ if [ "$status" -eq 0 ] && [ -f "$T/offscreen.png" ]; then
     [ "${far%.*}" -le 180 ] || fail "GLFW and the first that works differ in $far pixels of 360000"
 fi
 
+# In a small window the keys are above the controls: the timeline is seen as before.
+start --paused --size 640x480
+shot small
+keys question
+shot small-keys
+stop
+for name in small small-keys; do
+    convert "$T/$name.png" -crop 640x46+0+386 +repage "$T/$name-timeline.ppm"
+done
+differ small small-keys
+cmp -s "$T/small-timeline.ppm" "$T/small-keys-timeline.ppm" || fail "the keys cover the timeline"
+
 # Mouse: turns, zooms, seeks.
 start --paused
 xdotool mousemove --window "$window" 300 200 mousedown 1
@@ -144,7 +156,13 @@ start --audio "$here/tests/assets/demo_take.wav" --loop
 sleep 1
 keys space
 stop
-is clock '"sound"'
+has_sound=1
+grep -q 'built without' "$T/out" "$T/err" && has_sound=0
+if [ $has_sound -eq 1 ]; then
+    is clock '"sound"'
+else
+    echo "SKIP: this build has no sound, and what is about sound is not tested"
+fi
 is playing false
 between position_s 0.1 6.9
 between shown_frames 3 2000
@@ -162,7 +180,8 @@ is frame 174
 SDL_AUDIODRIVER=disk SDL_DISKAUDIOFILE=$T/played.raw start --audio "$here/tests/assets/demo_take.wav"
 sleep 1
 stop
-if [ "$(value clock)" = '"sound"' ]; then
+if [ $has_sound -eq 1 ]; then
+    is clock '"sound"'
     python3 - "$T/played.raw" "$here/tests/assets/demo_take.wav" <<'END' || fail "what is played is not the sound"
 import sys, wave
 with wave.open(sys.argv[2]) as w:
@@ -174,8 +193,6 @@ def heard(data):
 got, want = heard(got), heard(want)
 sys.exit(len(got) < 1000 or got[:min(len(got), 16000)] != want[:min(len(got), 16000)])
 END
-else
-    grep -q 'built without' "$T/out" "$T/err" || fail "the sound is not the clock: $(cat "$T/err")"
 fi
 
 # No device: it plays all the same.
@@ -195,3 +212,5 @@ wait $player || fail "escape: exit $?"
 
 expect 1 "$B/fapplay" "$T/none.fap" $face
 expect 1 "$B/fapplay" "$stream" $face --audio "$stream"
+expect 1 "$B/fapplay" "$stream" $face --audio "$T/none.wav"
+says 'none.wav'
