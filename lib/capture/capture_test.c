@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* A made-up face with known FAPs on a moving head must give those FAPs back. */
-#include "capture/take_test.h"
+#include "take/take_test.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* Spikes, gaps, resampling. */
-#include "capture/take_test.h"
+#include "take/take_test.h"
 
 #include <math.h>
 

@@ -10,7 +10,7 @@
 
 #include <fap/studio/markers.h>
 
-#include "capture/text.h"
+#include "take/text.h"
 #include "gen/markers.h"
 
 #define POINT(group, index) group, index

@@ -3,8 +3,8 @@
  * Tables that come from faces and hold no points: ARKit coefficients, and OpenFace exports with its points
  * switched off. They are recognised so that the answer is better than "unknown format".
  */
-#include "capture/take_driver.h"
-#include "capture/text.h"
+#include "take/take_driver.h"
+#include "take/text.h"
 
 static int first_line_has(const uint8_t *data, size_t size, const char *word)
 {

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "capture/grid.h"
+#include "take/grid.h"
 
 /* The rows of headings, found by what is in them. */
 typedef struct motive_head {

@@ -6,7 +6,7 @@
  */
 #include <stdio.h>
 
-#include "capture/grid.h"
+#include "take/grid.h"
 
 enum { POINTS = 68 };
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "capture/take_driver.h"
+#include "take/take_driver.h"
 
 static const take_driver *const drivers[] = {
     &take_driver_c3d,   &take_driver_trc,      &take_driver_nexus,        &take_driver_motive,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "capture/grid.h"
+#include "take/grid.h"
 
 /* What a first pass over the rows finds out. */
 typedef struct row_census {

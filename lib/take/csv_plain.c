@@ -4,7 +4,7 @@
  * their name (Chin_x, Chin.X, "Chin X", x_5, X5). Separator and decimal mark are found; other columns are
  * ignored. Source: tables as published by blenderFace and as research code writes them.
  */
-#include "capture/grid.h"
+#include "take/grid.h"
 
 /* A column heading taken apart. */
 typedef struct heading {

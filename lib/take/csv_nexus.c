@@ -6,7 +6,7 @@
  */
 #include <string.h>
 
-#include "capture/grid.h"
+#include "take/grid.h"
 
 enum { FIRST_POINT_COLUMN = 2, SHORT_HEAD_LINES = 6 };
 

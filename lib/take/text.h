@@ -3,8 +3,8 @@
  * Lines and cells of exported tables, without copying and without the locale: LF and CRLF, a byte order mark,
  * quotes, decimal points and commas, and the many ways to say "missing".
  */
-#ifndef LIB_CAPTURE_TEXT_H
-#define LIB_CAPTURE_TEXT_H
+#ifndef LIB_TAKE_TEXT_H
+#define LIB_TAKE_TEXT_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -3,8 +3,8 @@
  * A capture format is one file with one const struct of this type; the array of them in take.c is all there
  * is to registering it.
  */
-#ifndef LIB_CAPTURE_TAKE_DRIVER_H
-#define LIB_CAPTURE_TAKE_DRIVER_H
+#ifndef LIB_TAKE_TAKE_DRIVER_H
+#define LIB_TAKE_TAKE_DRIVER_H
 
 #include <fap/studio/take.h>
 

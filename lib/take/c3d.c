@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capture/c3d.h"
-#include "capture/take_driver.h"
-#include "capture/text.h"
+#include "take/c3d.h"
+#include "take/take_driver.h"
+#include "take/text.h"
 
 enum {
     LABEL_PARTS = 1 + FAP_TAKE_MAX_POINTS / 255, /* LABELS, LABELS2 ... of 255 names each */

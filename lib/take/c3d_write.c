@@ -11,7 +11,7 @@
 #include <fap/studio/take.h>
 
 #include "base/mem.h"
-#include "capture/c3d.h"
+#include "take/c3d.h"
 
 enum {
     MAX_PARAMETER_BLOCKS = 255,

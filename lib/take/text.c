@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "capture/text.h"
+#include "take/text.h"
 
 text_lines text_open(const uint8_t *data, size_t size)
 {

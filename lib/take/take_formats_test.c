@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* TRC, Nexus, Motive and plain tables: what each has of its own, what is missing, and what cannot be read. */
-#include "capture/take_test.h"
+#include "take/take_test.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "capture/text.h"
+#include "take/text.h"
 
 static text t(const char *s)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* What the tests of takes share: bytes in memory, files of the test data, small made-up takes. */
-#ifndef LIB_CAPTURE_TAKE_TEST_H
-#define LIB_CAPTURE_TAKE_TEST_H
+#ifndef LIB_TAKE_TAKE_TEST_H
+#define LIB_TAKE_TAKE_TEST_H
 
 #include "tests/test.h"
 

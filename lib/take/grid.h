@@ -3,11 +3,11 @@
  * The part that all tables of points share: once a driver knows which columns make which point and where the
  * rows begin, reading them is the same. Rows are placed by their frame number, so dropped ones become gaps.
  */
-#ifndef LIB_CAPTURE_GRID_H
-#define LIB_CAPTURE_GRID_H
+#ifndef LIB_TAKE_GRID_H
+#define LIB_TAKE_GRID_H
 
-#include "capture/take_driver.h"
-#include "capture/text.h"
+#include "take/take_driver.h"
+#include "take/text.h"
 
 typedef struct grid_point {
     text name;

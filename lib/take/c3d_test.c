@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* C3D: every variant written and read back, cut and broken files, the real ones. */
-#include "capture/take_test.h"
+#include "take/take_test.h"
 
 #include <math.h>
 
