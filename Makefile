@@ -43,6 +43,7 @@ GPIO_CFLAGS := $(if $(call has,libgpiod),$(shell $(PKG) --cflags libgpiod))
 GPIO_LIBS   := $(if $(call has,libgpiod),$(shell $(PKG) --libs libgpiod))
 JPEG    := $(call has,libjpeg)
 ZLIB    := $(call has,zlib)
+CAIRO   := $(call has,cairo)
 CMOCKA  := $(call has,cmocka)
 
 # --- sources ------------------------------------------------------------------------------------------------------
@@ -56,15 +57,17 @@ RENDER_SRC := $(call notest,$(wildcard player/render/*.c))
 ENC_SRC  := $(call notest,$(wildcard encoder/*.c encoder/*/*.c))
 PLAY_SRC := $(filter-out player/render/%,$(call notest,$(wildcard player/*.c player/*/*.c)))
 BANK_SRC := $(call notest,$(wildcard databank/*.c databank/*/*.c))
-TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c)
+TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c encoder/*/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c)
 obj       = $(patsubst %.c,$(B)/%.o,$(1))
 
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
 RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(GLFW),-lglfw) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
+PLOT_LIBS   := $(RENDER_LIBS) $(if $(CAIRO),-lcairo)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
 PLAY_LIBS   := $(SOUND_LIBS) $(if $(SDL2),-lSDL2) $(GPIO_LIBS) $(if $(IMGUI),$(shell $(PKG) --libs imgui)) $(if $(GLFW),-lglfw) $(if $(IMGUI),-lstdc++)
 DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHAVE_EGL) $(if $(PNG),-DHAVE_PNG) $(if $(SNDFILE),-DHAVE_SNDFILE) \
-            $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2) $(if $(GLFW),-DHAVE_GLFW) $(if $(IMGUI),-DHAVE_IMGUI)
+            $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2) $(if $(GLFW),-DHAVE_GLFW) $(if $(IMGUI),-DHAVE_IMGUI) \
+            $(if $(CAIRO),-DHAVE_CAIRO)
 
 TOOLS    := $(B)/fapenc $(B)/fapplay $(B)/fapbank
 LIBS     := $(B)/libfap.a $(B)/libfap-studio.a $(B)/libfap.so.$(VERSION)
@@ -72,6 +75,7 @@ LIBS     := $(B)/libfap.a $(B)/libfap-studio.a $(B)/libfap.so.$(VERSION)
 # Headers of libraries are not ours to warn about, and one driver file each includes them.
 system_cflags = $(patsubst -I%,-isystem %,$(shell $(PKG) --cflags $(1)))
 $(B)/player/audio/device_sdl.o: FAP_CFLAGS += $(if $(SDL2),$(call system_cflags,sdl2))
+$(B)/encoder/plot/canvas_cairo.o: FAP_CFLAGS += $(if $(CAIRO),$(call system_cflags,cairo))
 $(B)/player/window/panel_imgui.o: FAP_CXXFLAGS += $(if $(IMGUI),$(call system_cflags,imgui))
 
 COMPILE   = mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(DEFS) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
@@ -112,9 +116,9 @@ $(B)/libfap.so.$(VERSION): $(call obj,$(LIB_SRC))
 BASE := $(B)/libfap-common.a $(B)/libfap-gpio-$(GPIO).a $(B)/libfap-studio.a $(B)/libfap.a
 # Everything of a tool but main: the unit tests link it too.
 $(B)/libfap-enc.a: $(call obj,$(filter-out encoder/main.c,$(ENC_SRC)))
-$(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(BASE)
+$(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(SOUND_LIBS) $(STUDIO_LIBS) $(GPIO_LIBS) $(if $(PNG),-lpng) -lm
+	$(Q)$(LINK) $(PLOT_LIBS) $(SOUND_LIBS) $(STUDIO_LIBS) $(GPIO_LIBS) -lm
 $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC))) $(if $(IMGUI),$(B)/player/window/panel_imgui.o)
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
@@ -127,7 +131,7 @@ $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $
 # --- tests ---------------------------------------------------------------------------------------------------------
 FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildcard tests/fuzz/*.c)))
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
-ALL_LIBS := $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
+ALL_LIBS := $(PLOT_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
 
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)

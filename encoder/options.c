@@ -12,6 +12,7 @@
 
 #include "common/tool.h"
 #include "encoder/options.h"
+#include "encoder/plot/plot.h"
 
 static const char help[] =
     "Usage: fapenc TAKE -o OUT [options]       encode a capture; OUT is .fap (text) or .fba (bits)\n"
@@ -35,6 +36,7 @@ static const char help[] =
     "      --smooth M        auto, none, or a cut-off frequency in Hz\n"
     "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
+    "      --plot OUT.png|svg  the FAPs as curves, gaps and fills marked; where the markers are on the face\n"
     "      --trigger CHIP:LINE   do not read before an edge of this GPIO line: with - as TAKE, the start of "
     "a "
     "live\n"
@@ -93,6 +95,7 @@ enum {
     OPT_FILL,
     OPT_START,
     OPT_END,
+    OPT_PLOT,
     OPT_TRIGGER,
     OPT_QUANT,
     OPT_BITRATE,
@@ -131,6 +134,7 @@ static const struct option long_options[] = {
     { "fill", required_argument, NULL, OPT_FILL },
     { "start", required_argument, NULL, OPT_START },
     { "end", required_argument, NULL, OPT_END },
+    { "plot", required_argument, NULL, OPT_PLOT },
     { "trigger", required_argument, NULL, OPT_TRIGGER },
     { "quant", required_argument, NULL, OPT_QUANT },
     { "bitrate", required_argument, NULL, OPT_BITRATE },
@@ -273,6 +277,15 @@ static int parse_trigger(options *opt, const char *text)
     return usage(opt);
 }
 
+static int parse_plot(options *opt, const char *text)
+{
+    opt->plot_path = text;
+    if (plot_name_known(text))
+        return 1;
+    tool_error("--plot %s: expected a name that ends in .png or .svg", text);
+    return usage(opt);
+}
+
 static int parse_option(options *opt, int c, const char *arg)
 {
     switch (c) {
@@ -289,6 +302,7 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_FILL: return parse_fill(opt, arg);
     case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);
     case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
+    case OPT_PLOT: return parse_plot(opt, arg);
     case OPT_TRIGGER: return parse_trigger(opt, arg);
     case OPT_QUANT:
         return set_rate(opt, "--quant", FAP_ENCODE_QUANT) &&
@@ -342,6 +356,10 @@ static int check(options *opt)
         tool_error("--planes belongs to fapenc inspect");
     else if (opt->command == COMMAND_INSPECT && gpio_spec_given(&opt->trigger))
         tool_error("--trigger starts a capture; fapenc inspect has none");
+    else if (opt->command == COMMAND_INSPECT && opt->plot_path)
+        tool_error("--plot draws what is encoded; fapenc inspect encodes nothing");
+    else if (opt->plot_path && opt->output && !strcmp(opt->plot_path, opt->output))
+        tool_error("--plot and -o name the same file");
     else if (opt->capture.end_s > 0 && opt->capture.end_s <= opt->capture.start_s)
         tool_error("--end %g is not after --start %g", opt->capture.end_s, opt->capture.start_s);
     else

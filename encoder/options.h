@@ -23,6 +23,7 @@ typedef struct options {
     const char *bank_path;   /* the face that errors are measured on; NULL: find one; "builtin" */
     const char *fit_path, *learn_path;
     gpio_spec trigger; /* the line whose edge is waited for; no chip: none */
+    const char *plot_path;   /* NULL: no plot */
     int strict;
     int planes; /* inspect: a line each */
     int json;

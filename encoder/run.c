@@ -12,6 +12,7 @@
 #include "common/gpio/trigger.h"
 #include "common/fit_file.h"
 #include "common/tool.h"
+#include "encoder/plot/sheet.h"
 #include "encoder/run.h"
 
 static const size_t max_input = (size_t)1 << 30, max_table = (size_t)1 << 20;
@@ -30,6 +31,21 @@ static fap_err fail_errno(run_report *rep, fap_err err, const char *path)
 
 /* --- what comes out --- */
 
+/* The stream is written by now and stays. */
+static fap_err plot(const options *opt, run_report *rep, const fap_ascii_header *header,
+                    const frame_source *src)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    frame_source timed = *src;
+
+    timed.rate_hz = header->rate_hz;
+    const fap_err err = sheet_write(opt, rep, &timed, where);
+    rep->no_device = err == FAP_E_UNSUPPORTED;
+    if (err == FAP_OK)
+        return FAP_OK;
+    return *where ? fail(rep, err, opt->plot_path, where) : fail_errno(rep, err, opt->plot_path);
+}
+
 static fap_err write_output(const options *opt, run_report *rep, const fap_ascii_header *header,
                             const frame_source *src)
 {
@@ -39,7 +55,7 @@ static fap_err write_output(const options *opt, run_report *rep, const fap_ascii
         output_write(opt, header, src, opt->fit_path ? rep->fit : NULL, &rep->written, &path, where);
 
     if (err == FAP_OK)
-        return FAP_OK;
+        return opt->plot_path ? plot(opt, rep, header, src) : FAP_OK;
     if (err == FAP_E_LIMIT && !*where)
         return fail(rep, err, path,
                     "longer than can be written: too many frames, or over 4096 are left out in a row");
