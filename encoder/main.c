@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* fapenc: captures to FAPs. */
 #include "common/tool.h"
+#include "encoder/batch/batch.h"
 #include "encoder/report.h"
 
 int main(int argc, char **argv)
@@ -11,6 +12,8 @@ int main(int argc, char **argv)
     if (!options_parse(&opt, argc, argv))
         return opt.exit_status;
 
+    if (opt.command == COMMAND_BATCH)
+        return batch_run(&opt);
     run_report rep = { 0 };
     const fap_err err = run(&opt, &rep);
     const int status = report_print(&opt, &rep, err);

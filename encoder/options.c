@@ -16,6 +16,7 @@
 
 static const char help[] =
     "Usage: fapenc TAKE -o OUT [options]       encode a capture; OUT is .fap (text) or .fba (bits)\n"
+    "       fapenc --batch FOLDER -o OUTFOLDER encode every capture in a folder\n"
     "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba\n"
     "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
     "\n"
@@ -37,6 +38,11 @@ static const char help[] =
     "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
     "      --plot OUT.png|svg  the FAPs as curves, gaps and fills marked; where the markers are on the face\n"
+    "      --batch FOLDER -o OUT   every take in FOLDER and below; goes on where it was stopped; "
+    "docs/batch.md\n"
+    "  -j, --jobs N          takes at a time (as many as there are processors)\n"
+    "      --to fap|fba      what a batch writes (fap; fba where --quant, --bitrate or --max-error is "
+    "given)\n"
     "      --trigger CHIP:LINE   do not read before an edge of this GPIO line: with - as TAKE, the start of "
     "a "
     "live\n"
@@ -96,6 +102,8 @@ enum {
     OPT_START,
     OPT_END,
     OPT_PLOT,
+    OPT_BATCH,
+    OPT_TO,
     OPT_TRIGGER,
     OPT_QUANT,
     OPT_BITRATE,
@@ -134,6 +142,9 @@ static const struct option long_options[] = {
     { "fill", required_argument, NULL, OPT_FILL },
     { "start", required_argument, NULL, OPT_START },
     { "end", required_argument, NULL, OPT_END },
+    { "batch", required_argument, NULL, OPT_BATCH },
+    { "jobs", required_argument, NULL, 'j' },
+    { "to", required_argument, NULL, OPT_TO },
     { "plot", required_argument, NULL, OPT_PLOT },
     { "trigger", required_argument, NULL, OPT_TRIGGER },
     { "quant", required_argument, NULL, OPT_QUANT },
@@ -286,6 +297,16 @@ static int parse_plot(options *opt, const char *text)
     return usage(opt);
 }
 
+static int parse_to(options *opt, const char *text)
+{
+    opt->batch_bits = !strcmp(text, "fba");
+    opt->to_given = 1;
+    if (opt->batch_bits || !strcmp(text, "fap"))
+        return 1;
+    tool_error("--to %s: expected fap or fba", text);
+    return usage(opt);
+}
+
 static int parse_option(options *opt, int c, const char *arg)
 {
     switch (c) {
@@ -302,6 +323,12 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_FILL: return parse_fill(opt, arg);
     case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);
     case OPT_END: return number(opt, "end", arg, 0, 1e6, &opt->capture.end_s);
+    case OPT_BATCH:
+        opt->command = COMMAND_BATCH;
+        opt->batch_path = arg;
+        return 1;
+    case 'j': return whole_number(opt, "jobs", arg, 1, 256, &opt->jobs);
+    case OPT_TO: return parse_to(opt, arg);
     case OPT_PLOT: return parse_plot(opt, arg);
     case OPT_TRIGGER: return parse_trigger(opt, arg);
     case OPT_QUANT:
@@ -339,9 +366,34 @@ int options_want_bits(const options *opt)
     return dot && !strcasecmp(dot, ".fba");
 }
 
+static int check_span(options *opt)
+{
+    if (!(opt->capture.end_s > 0) || opt->capture.end_s > opt->capture.start_s)
+        return 1;
+    tool_error("--end %g is not after --start %g", opt->capture.end_s, opt->capture.start_s);
+    return usage(opt);
+}
+
+static int check_batch(options *opt)
+{
+    opt->batch_bits |= opt->rate_option && !opt->to_given;
+    if (opt->input)
+        tool_error("--batch %s has its own inputs, not also %s", opt->batch_path, opt->input);
+    else if (!opt->output || !strcmp(opt->output, "-"))
+        tool_error("where to? --batch FOLDER -o OUTFOLDER");
+    else if (opt->plot_path || opt->learn_path || gpio_spec_given(&opt->trigger))
+        tool_error(
+            "--plot, --learn-fit and --trigger belong to one take; a batch plots every take by itself");
+    else
+        return 1;
+    return usage(opt);
+}
+
 static int check(options *opt)
 {
-    if (!opt->input)
+    if (opt->command != COMMAND_BATCH && (opt->jobs || opt->to_given))
+        tool_error("--jobs and --to belong to --batch FOLDER");
+    else if (!opt->input)
         tool_error("what to read? fapenc TAKE -o OUT.fap; fapenc --help tells more");
     else if (opt->command == COMMAND_ENCODE && !opt->output)
         tool_error("where to? -o OUT.fap, or -o - for standard output");
@@ -360,22 +412,36 @@ static int check(options *opt)
         tool_error("--plot draws what is encoded; fapenc inspect encodes nothing");
     else if (opt->plot_path && opt->output && !strcmp(opt->plot_path, opt->output))
         tool_error("--plot and -o name the same file");
-    else if (opt->capture.end_s > 0 && opt->capture.end_s <= opt->capture.start_s)
-        tool_error("--end %g is not after --start %g", opt->capture.end_s, opt->capture.start_s);
     else
+        return check_span(opt);
+    return usage(opt);
+}
+
+/* What is encoded does not depend on where it goes and what is told about it. */
+static int keep_given(options *opt, int c, int index)
+{
+    static const int elsewhere[] = { 'o', 'j', OPT_BATCH, OPT_PLOT, OPT_JSON, OPT_QUIET };
+    const size_t used = strlen(opt->given), room = sizeof opt->given - used;
+
+    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
+        if (c == elsewhere[i])
+            return 1;
+    if (snprintf(opt->given + used, room, "--%s=%s\n", long_options[index].name, optarg ? optarg : "") <
+        (int)room)
         return 1;
+    tool_error("the options are longer than %zu letters", sizeof opt->given);
     return usage(opt);
 }
 
 int options_parse(options *opt, int argc, char **argv)
 {
-    int c;
+    int c, index;
 
     *opt = (options){ .exit_status = EXIT_OK };
     fap_capture_config_init(&opt->capture);
     fap_encoder_config_init(&opt->bits);
-    while ((c = getopt_long(argc, argv, "o:", long_options, NULL)) != -1)
-        if (!parse_option(opt, c, optarg))
+    while ((c = getopt_long(argc, argv, "o:j:", long_options, &index)) != -1)
+        if (!parse_option(opt, c, optarg) || !keep_given(opt, c, index))
             return 0;
     if (optind < argc && !strcmp(argv[optind], "inspect")) {
         opt->command = COMMAND_INSPECT;
@@ -387,5 +453,5 @@ int options_parse(options *opt, int argc, char **argv)
         tool_error("one input at a time, not also %s", argv[optind]);
         return usage(opt);
     }
-    return check(opt);
+    return opt->command == COMMAND_BATCH ? check_batch(opt) : check(opt);
 }

@@ -8,7 +8,7 @@
 
 #include "common/gpio/spec.h"
 
-typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT } command;
+typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT, COMMAND_BATCH } command;
 
 typedef struct options {
     command command;
@@ -22,8 +22,13 @@ typedef struct options {
     const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */
     const char *bank_path;   /* the face that errors are measured on; NULL: find one; "builtin" */
     const char *fit_path, *learn_path;
-    gpio_spec trigger; /* the line whose edge is waited for; no chip: none */
-    const char *plot_path;   /* NULL: no plot */
+    gpio_spec trigger;      /* the line whose edge is waited for; no chip: none */
+    const char *plot_path;  /* NULL: no plot */
+    const char *batch_path; /* the folder whose takes are encoded; NULL: one take */
+    int jobs;               /* takes at a time; 0: as many as there are processors */
+    int to_given;
+    int batch_bits;   /* .fba instead of .fap for each */
+    char given[4096]; /* the options that change what is encoded, as they were given */
     int strict;
     int planes; /* inspect: a line each */
     int json;

@@ -18,6 +18,8 @@ typedef enum canvas_align { CANVAS_LEFT, CANVAS_MIDDLE, CANVAS_RIGHT } canvas_al
 
 enum { CANVAS_MAX_SIDE = 30000 };
 
+/* 0: built without the library that draws. */
+int canvas_available(void);
 /* White. @where: FAP_ERROR_TEXT_SIZE bytes. FAP_E_UNSUPPORTED: built without the library that draws. */
 fap_err canvas_open(canvas **c, canvas_format format, int width, int height, char *where);
 /* Accepts NULL in @c. */

@@ -42,6 +42,11 @@ static cairo_surface_t *make_surface(canvas *c, int width, int height)
     return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
 }
 
+int canvas_available(void)
+{
+    return 1;
+}
+
 fap_err canvas_open(canvas **out, canvas_format format, int width, int height, char *where)
 {
     *out = NULL;

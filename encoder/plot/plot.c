@@ -24,6 +24,11 @@ int plot_name_known(const char *path)
     return has_ending(path, ".png") || has_ending(path, ".svg");
 }
 
+int plot_available(void)
+{
+    return canvas_available();
+}
+
 static void draw_head(canvas *c, const plot_content *p)
 {
     canvas_colour(c, 0x111111, 1);

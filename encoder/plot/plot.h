@@ -35,6 +35,8 @@ typedef struct plot_content {
     int marker_count;
 } plot_content;
 
+/* 0: this build cannot draw. */
+int plot_available(void);
 /* 1: a name that a plot can have, .png or .svg. */
 int plot_name_known(const char *path);
 /*

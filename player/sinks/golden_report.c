@@ -6,10 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/file.h"
+#include "common/folder.h"
+#include "common/html.h"
 #include "common/tool.h"
 #include "player/sinks/golden_report.h"
 #include "player/sinks/picture_file.h"
@@ -28,17 +29,7 @@ int golden_picture_name(char path[GOLDEN_PATH_SIZE], const char *folder, int64_t
 
 int golden_make_folders(const char *path, fault *f)
 {
-    char part[GOLDEN_PATH_SIZE];
-    const size_t length = strlen(path);
-
-    for (size_t i = 1; i <= length; i++) {
-        if (path[i] != '/' && path[i] != '\0')
-            continue;
-        snprintf(part, sizeof part, "%.*s", (int)i, path);
-        if (mkdir(part, 0777) && errno != EEXIST)
-            return fault_set(f, EXIT_DATA, "%s: %s", part, strerror(errno));
-    }
-    return 1;
+    return folder_make(path) ? 1 : fault_set(f, EXIT_DATA, "%s: %s", path, strerror(errno));
 }
 
 /* A name that nobody has by chance: it is taken away again. */
@@ -155,18 +146,6 @@ int golden_report_add(golden_report *r, const golden_finding *finding, const ima
 
 /* --- the page --- */
 
-static void put_text(FILE *out, const char *text)
-{
-    for (; *text; text++)
-        switch (*text) {
-        case '<': fputs("&lt;", out); break;
-        case '>': fputs("&gt;", out); break;
-        case '&': fputs("&amp;", out); break;
-        case '"': fputs("&quot;", out); break;
-        default: fputc(*text, out);
-        }
-}
-
 static const char head[] =
     "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
     "<meta name=\"viewport\" content=\"width=device-width\">\n<title>Golden pictures</title>\n<style>\n"
@@ -264,7 +243,7 @@ static void put_page(FILE *out, const golden_report *r, const char *title, const
 {
     fputs(head, out);
     fputs("<h1>Golden pictures: ", out);
-    put_text(out, title);
+    html_text(out, title);
     fprintf(out, "</h1>\n<p><b class=\"bad\">%" PRId64 " of %" PRId64 " pictures differ.</b> ", r->count,
             compared);
     fprintf(out, "The worst come first. %s</p>\n", advice);
