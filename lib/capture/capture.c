@@ -14,6 +14,7 @@
 struct fap_capture {
     fap_allocator alloc;
     fap_frame *frames;
+    uint8_t (*seen)[FAP_POINT_COUNT]; /* [report.frames], a fap_sample each */
     fap_capture_report report;
 };
 
@@ -211,7 +212,9 @@ fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_ca
         err = performance_fail(&p, FAP_E_NOT_FOUND, "the markers are known, but none of them carries a FAP");
     if (err == FAP_OK) {
         c->frames = p.out;
+        c->seen = p.seen;
         p.out = NULL;
+        p.seen = NULL;
         *out = c;
     } else {
         fap_mem_free(&take->alloc, c);
@@ -227,6 +230,14 @@ const fap_frame *fap_capture_frames(const fap_capture *c)
     return c->frames;
 }
 
+fap_sample fap_capture_fill_of(const fap_capture *c, uint32_t frame, int fap)
+{
+    if (frame >= c->report.frames || fap < 1 || fap > FAP_COUNT || c->frames[frame].state[fap] != FAP_CODED)
+        return FAP_SAMPLE_MISSING;
+    const int point = c->report.fap[fap].point;
+    return point < 0 ? FAP_SAMPLE_MEASURED : (fap_sample)c->seen[frame][point];
+}
+
 const fap_capture_report *fap_capture_report_get(const fap_capture *c)
 {
     return &c->report;
@@ -238,6 +249,7 @@ void fap_capture_close(fap_capture **c)
         return;
     const fap_allocator a = (*c)->alloc;
     fap_mem_free(&a, (*c)->frames);
+    fap_mem_free(&a, (*c)->seen);
     fap_mem_free(&a, *c);
     *c = NULL;
 }

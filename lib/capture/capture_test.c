@@ -232,6 +232,11 @@ TEST(capture, a_gap_is_masked_out_or_eased_but_never_invented)
     assert_int_equal(fap_capture_frames(c)[30].state[53], FAP_HELD);
     assert_int_equal(fap_capture_frames(c)[30].value[53], fap_capture_frames(c)[19].value[53]);
     assert_int_equal(fap_capture_frames(c)[30].state[54], FAP_CODED);
+    assert_int_equal(fap_capture_fill_of(c, 30, 53), FAP_SAMPLE_MISSING);
+    assert_int_equal(fap_capture_fill_of(c, 19, 53), FAP_SAMPLE_MEASURED);
+    assert_int_equal(fap_capture_fill_of(c, 30, 48), FAP_SAMPLE_MEASURED);
+    assert_int_equal(fap_capture_fill_of(c, FRAMES, 53), FAP_SAMPLE_MISSING);
+    assert_int_equal(fap_capture_fill_of(c, 0, FAP_COUNT + 1), FAP_SAMPLE_MISSING);
     fap_capture_close(&c);
 
     fap_capture_config cfg;
@@ -240,6 +245,8 @@ TEST(capture, a_gap_is_masked_out_or_eased_but_never_invented)
     cfg.rigid = rigid_names;
     assert_int_equal(fap_capture_encode(&c, take, &cfg, NULL), FAP_OK);
     assert_int_equal(fap_capture_frames(c)[30].state[53], FAP_CODED);
+    assert_true(fap_capture_fill_of(c, 30, 53) > FAP_SAMPLE_MEASURED);
+    assert_int_equal(fap_capture_fill_of(c, 45, 53), FAP_SAMPLE_MEASURED);
     assert_int_equal(fap_capture_frames(c)[55].state[63],
                      FAP_HELD); /* the end is no gap: nothing to ease to */
     fap_capture_close(&c);

@@ -16,6 +16,13 @@ void fap_clean_config_init(fap_clean_config *cfg)
     *cfg = (fap_clean_config){ .struct_size = sizeof *cfg, .spike_mm = 3, .gap_s = 0.2 };
 }
 
+const char *fap_sample_name(fap_sample sample)
+{
+    static const char *const names[FAP_SAMPLE_KINDS] = { "missing", "measured", "spline", "rigid",
+                                                         "surface", "motion",   "bank",   "eased" };
+    return (unsigned)sample < FAP_SAMPLE_KINDS ? names[sample] : "unknown";
+}
+
 static size_t at(const fap_take *take, uint32_t frame, uint32_t point)
 {
     return (size_t)frame * take->point_count + point;
@@ -146,7 +153,7 @@ static void close_gap(fap_take *take, uint32_t before, uint32_t after, uint32_t 
         }
     }
     for (uint32_t f = before + 1; f < after; f++)
-        take->valid[at(take, f, point)] = 1;
+        take->valid[at(take, f, point)] = FAP_SAMPLE_SPLINE;
 }
 
 static void close_gaps(fap_take *take, uint32_t point, uint32_t longest, fap_clean_report *report)

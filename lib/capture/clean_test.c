@@ -123,6 +123,22 @@ TEST(resample, a_gap_stays_a_gap)
     fap_take_close(&take);
 }
 
+TEST(resample, what_was_filled_is_known_as_that)
+{
+    fap_take *take = wave(400, 1);
+    fap_clean_report r;
+
+    memset(take->valid + 101, 0, 6);
+    fap_take_clean(take, NULL, &r);
+    fap_take *out = resampled(take, 50, 0);
+    for (uint32_t f = 40; f < 60; f++)
+        assert_int_equal(out->valid[f], f >= 51 && f <= 53 ? FAP_SAMPLE_SPLINE : FAP_SAMPLE_MEASURED);
+    assert_string_equal(fap_sample_name(FAP_SAMPLE_EASED), "eased");
+    assert_string_equal(fap_sample_name((fap_sample)99), "unknown");
+    fap_take_close(&out);
+    fap_take_close(&take);
+}
+
 TEST(resample, refuses_rates_that_are_none)
 {
     fap_take *take = wave(10, 1), *out;

@@ -33,7 +33,7 @@ typedef struct performance {
 
     /* points.c: feature points without head motion, head axes */
     float (*point)[FAP_POINT_COUNT][3]; /* [frames] */
-    uint8_t (*seen)[FAP_POINT_COUNT];   /* [frames] */
+    uint8_t (*seen)[FAP_POINT_COUNT];   /* [frames], a fap_sample each */
     float neutral[FAP_POINT_COUNT][3];
     uint8_t known[FAP_POINT_COUNT];
 

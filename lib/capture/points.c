@@ -96,10 +96,13 @@ void rings_assign(performance *p)
 
 /* --- feature points --- */
 
-/* Each marker's own displacement from rest, so that a hidden one of several does not make the mean jump. */
+/*
+ * Each marker's own displacement from rest, so that a hidden one of several does not make the mean jump. Gives the
+ * fap_sample that is the least sure of them.
+ */
 static int mean_displacement(const performance *p, uint32_t frame, const fap_marker_source *s, double out[3])
 {
-    int seen = 0;
+    int seen = 0, origin = FAP_SAMPLE_MISSING;
 
     out[0] = out[1] = out[2] = 0;
     for (int k = 0; k < s->count; k++) {
@@ -108,11 +111,13 @@ static int mean_displacement(const performance *p, uint32_t frame, const fap_mar
             continue;
         for (int axis = 0; axis < 3; axis++)
             out[axis] += v[axis] - p->place[s->index[k]][axis];
+        const int this = p->take->valid[(size_t)frame * p->take->point_count + (size_t)s->index[k]];
+        origin = this > origin ? this : origin;
         seen++;
     }
     for (int axis = 0; axis < 3 && seen; axis++)
         out[axis] /= seen;
-    return seen > 0;
+    return origin;
 }
 
 static void place_point(performance *p, int i)
@@ -125,7 +130,7 @@ static void place_point(performance *p, int i)
         return;
     to_head(p, rest, p->neutral[i]);
     for (uint32_t f = 0; f < p->frames; f++) {
-        p->seen[f][i] = mean_displacement(p, f, s, moved) != 0;
+        p->seen[f][i] = (uint8_t)mean_displacement(p, f, s, moved);
         if (p->seen[f][i])
             to_head(p, moved, p->point[f][i]);
     }
@@ -147,7 +152,7 @@ static void ease_gap(performance *p, int i, uint32_t before, uint32_t after)
         for (int axis = 0; axis < 3; axis++)
             p->point[f][i][axis] =
                 p->point[before][i][axis] + part * (p->point[after][i][axis] - p->point[before][i][axis]);
-        p->seen[f][i] = 1;
+        p->seen[f][i] = FAP_SAMPLE_EASED;
     }
 }
 

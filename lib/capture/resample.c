@@ -92,6 +92,17 @@ static stretch stretch_around(const resampler *r, int64_t f, uint32_t point)
     return s;
 }
 
+/* The less sure of the two samples around it. */
+static void take_origin(const resampler *r, double t, uint32_t point, fap_take *out, uint32_t frame)
+{
+    uint8_t *origin = &out->valid[(size_t)frame * out->point_count + point];
+    const uint8_t *around = &r->in->valid[(size_t)floor(t) * r->in->point_count + point];
+    const uint8_t next = t > floor(t) ? around[r->in->point_count] : 0;
+
+    if (*origin)
+        *origin = *around > next ? *around : next;
+}
+
 static void resample_point(const resampler *r, double t, uint32_t point, fap_take *out, uint32_t frame)
 {
     const int64_t before = (int64_t)floor(t);
@@ -104,6 +115,7 @@ static void resample_point(const resampler *r, double t, uint32_t point, fap_tak
     else
         interpolated(r, t, point, xyz);
     fap_take_set(out, frame, point, xyz);
+    take_origin(r, t, point, out, frame);
 }
 
 /* Cycles per input frame. */

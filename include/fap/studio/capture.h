@@ -105,6 +105,13 @@ FAP_API FAP_NODISCARD fap_err fap_capture_encode(fap_capture **out, const fap_ta
 /** fap_capture_report_get()->frames of them, numbered from 0. */
 FAP_API const fap_frame *fap_capture_frames(const fap_capture *c);
 FAP_API const fap_capture_report *fap_capture_report_get(const fap_capture *c);
+/**
+ * Where a FAP's value in a frame comes from: FAP_SAMPLE_MISSING where it is held or absent, else the least sure of
+ * the markers it was taken from.
+ * @param frame  0 .. report.frames - 1
+ * @param fap    1 .. FAP_COUNT
+ */
+FAP_API fap_sample fap_capture_fill_of(const fap_capture *c, uint32_t frame, int fap);
 /** Sets @p *c to NULL; accepts NULL. */
 FAP_API void fap_capture_close(fap_capture **c);
 

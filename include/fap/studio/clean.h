@@ -12,6 +12,21 @@
 extern "C" {
 #endif
 
+/** How a sample of a take came to be: what its @c valid holds. The later, the less was seen of it. */
+typedef enum fap_sample {
+    FAP_SAMPLE_MISSING,  /**< not there */
+    FAP_SAMPLE_MEASURED, /**< as the file has it */
+    FAP_SAMPLE_SPLINE,   /**< a curve from before the gap to after it */
+    FAP_SAMPLE_RIGID,    /**< carried by markers that keep their distances to it */
+    FAP_SAMPLE_SURFACE, /**< an offset in the frame that its neighbours make (Sanchez Lorenzo, section 5.2) */
+    FAP_SAMPLE_MOTION,  /**< how it moves with all others in the rest of the take */
+    FAP_SAMPLE_BANK,    /**< what the databank's key models make of the points in sight */
+    FAP_SAMPLE_EASED,   /**< nothing was known: from its last place to its next one */
+    FAP_SAMPLE_KINDS
+} fap_sample;
+/** "missing", "measured", "spline", "rigid", "surface", "motion", "bank", "eased"; static. */
+FAP_API const char *fap_sample_name(fap_sample sample);
+
 /** Start from fap_clean_config_init(). */
 typedef struct fap_clean_config {
     size_t struct_size;

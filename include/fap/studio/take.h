@@ -39,7 +39,7 @@ struct fap_take {
     uint32_t frame_count, point_count;
     char (*name)[FAP_TAKE_NAME_SIZE]; /**< [point_count], unique, blanks cut, subject prefix kept */
     float (*xyz)[3];    /**< [frame_count * point_count], millimetres, axes of the file; 0 where missing */
-    uint8_t *valid;     /**< [frame_count * point_count], 1: measured */
+    uint8_t *valid;     /**< [frame_count * point_count], 1: measured; fap/studio/clean.h has the rest */
     double mm_per_unit; /**< what the file's numbers were multiplied with */
     uint8_t unit_known; /**< 0: guessed from the size of the point cloud */
     char screen[2][4];  /**< what was right and up on the operator's screen ("+X", "+Z"); "" unknown */
