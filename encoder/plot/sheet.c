@@ -34,6 +34,18 @@ static void describe(const run_report *rep, const plot_content *p, char *out)
         snprintf(out, SUBTITLE_SIZE, "%zu FAP frames at %g Hz", p->frame_count, p->rate_hz);
 }
 
+/* Whatever the cameras did not see. */
+static int is_filled(const void *capture, size_t frame, int fap)
+{
+    return fap_capture_fill_of(capture, (uint32_t)frame, fap) > FAP_SAMPLE_MEASURED;
+}
+
+static void add_capture(plot_content *p, const fap_capture *c)
+{
+    p->filled = is_filled;
+    p->user = c;
+}
+
 fap_err sheet_write(const options *opt, const run_report *rep, const frame_source *src, char *where)
 {
     char subtitle[SUBTITLE_SIZE];
@@ -46,6 +58,8 @@ fap_err sheet_write(const options *opt, const run_report *rep, const frame_sourc
         return err;
     p.frame = frames;
     describe(rep, &p, subtitle);
+    if (rep->capture)
+        add_capture(&p, rep->capture);
     err = plot_write(opt->plot_path, &p, where);
     free(frames);
     return err;
