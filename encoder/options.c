@@ -17,12 +17,16 @@
 static const char help[] =
     "Usage: fapenc TAKE -o OUT [options]       encode a capture; OUT is .fap (text) or .fba (bits)\n"
     "       fapenc --batch FOLDER -o OUTFOLDER encode every capture in a folder\n"
-    "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba\n"
+    "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; -o OUT.csv: ARKit's "
+    "coefficients\n"
     "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
     "\n"
     "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
     "NAME_y, NAME_z\n"
-    "columns. The content decides, not the name. \"-\" is standard input, -o - standard output.\n"
+    "columns; or coefficients: Live Link Face CSV or recorded packets, OpenFace action units "
+    "(docs/coefficients.md). "
+    "The\n"
+    "content decides, not the name. \"-\" is standard input, -o - standard output.\n"
     "\n"
     "  -o, --output FILE     where the FAPs go\n"
     "      --markers MAP.csv marker to feature point, a line each: \"LMouthCorner,8.4\", \"Head1,rigid\", "
@@ -82,6 +86,7 @@ static const char help[] =
     "  fapenc take.c3d --max-error 0.5 --bank anna.fbank --learn-fit take.fit -o take.fba\n"
     "  fapenc take.fap --quant 4 --intra 50 --look-ahead 0 -o take.fba\n"
     "  fapenc take.fba -o take.fap\n"
+    "  fapenc MySlate_1_iPhone.csv -o take.fap; fapenc take.fap -o take_livelink.csv\n"
     "  fapenc inspect take.fba\n"
     "  tracker | fapenc - --trigger gpiochip0:17:pull-up:falling -o take.fba\n"
     "\n"
@@ -214,6 +219,7 @@ static int parse_neutral(options *opt, const char *text)
         return usage(opt);
     }
     opt->capture.neutral_frame = (int64_t)n;
+    opt->neutral_given = 1;
     return 1;
 }
 
@@ -360,10 +366,20 @@ static int parse_option(options *opt, int c, const char *arg)
     }
 }
 
+static int ends_with(const char *name, const char *ending)
+{
+    const char *dot = name ? strrchr(name, '.') : NULL;
+    return dot && !strcasecmp(dot, ending);
+}
+
 int options_want_bits(const options *opt)
 {
-    const char *dot = opt->output ? strrchr(opt->output, '.') : NULL;
-    return dot && !strcasecmp(dot, ".fba");
+    return ends_with(opt->output, ".fba");
+}
+
+int options_want_livelink(const options *opt)
+{
+    return ends_with(opt->output, ".csv");
 }
 
 static int check_span(options *opt)

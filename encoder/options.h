@@ -17,6 +17,7 @@ typedef struct options {
     double take_rate_hz; /* 0: as the file says */
     double mm_per_unit;  /* 0: as the file says */
     int rate_given;      /* --fps was there */
+    int neutral_given;   /* --neutral was there: coefficients have a rest of their own otherwise */
     fap_capture_config capture;
     fap_encoder_config bits; /* how an .fba is coded; its rate is the frames' */
     const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */
@@ -40,5 +41,7 @@ int options_parse(options *opt, int argc, char **argv);
 
 /* 1: the output is an .fba, by its name. */
 int options_want_bits(const options *opt);
+/* 1: the output is a .csv of ARKit's coefficients, by its name. */
+int options_want_livelink(const options *opt);
 
 #endif

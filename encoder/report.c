@@ -7,6 +7,7 @@
 #include "common/tool.h"
 #include "encoder/report.h"
 #include "encoder/report_capture.h"
+#include "encoder/report_coefficients.h"
 #include "encoder/report_inspect.h"
 #include "encoder/report_written.h"
 
@@ -28,6 +29,8 @@ static void report_transcoded(const options *opt, const run_report *rep)
 {
     if (opt->json)
         inspect_json(opt, rep);
+    else if (rep->livelink.frames)
+        report_livelink_say(opt, rep);
     else if (!rep->written.bits)
         tool_note("%s: %" PRIu64 " frames at %g Hz, %d FAPs", opt->output, rep->stream.frames,
                   rep->stream.header.rate_hz, stream_coded_faps(&rep->stream));
@@ -42,6 +45,8 @@ static void report_success(const options *opt, const run_report *rep)
     }
     if (rep->capture)
         (opt->json ? report_capture_json : report_capture_say)(opt, rep);
+    else if (rep->performance)
+        (opt->json ? report_coefficients_json : report_coefficients_say)(opt, rep);
     else
         report_transcoded(opt, rep);
     report_written_say(opt, &rep->written);

@@ -112,6 +112,20 @@ static fap_err transcode(const options *opt, run_report *rep, const uint8_t *dat
     return write_output(opt, rep, &header, &src);
 }
 
+static fap_err write_livelink(const options *opt, run_report *rep, const uint8_t *data, size_t size)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    const char *path;
+    const frame_source src = {
+        .data = data, .size = size, .options = &rep->reading, .rate_hz = rep->stream.header.rate_hz, .fill = 1
+    };
+    const fap_err err = livelink_write(opt, &src, &rep->livelink, &path, where);
+
+    if (err == FAP_OK)
+        return FAP_OK;
+    return *where ? fail(rep, err, path, where) : fail_errno(rep, err, path);
+}
+
 static fap_err inspect(const options *opt, run_report *rep, const uint8_t *data, size_t size)
 {
     const int bits = stream_is_bits(data, size);
@@ -176,6 +190,39 @@ static fap_err encode(const options *opt, run_report *rep)
     return write_capture(opt, rep);
 }
 
+static fap_err write_performance(const options *opt, run_report *rep)
+{
+    const fap_coefficients_report *r = fap_performance_report(rep->performance);
+    fap_ascii_header header = { .version = "2.1", .rate_hz = r->rate_hz, .present = 1 };
+    const frame_source src = { .frames = fap_performance_frames(rep->performance),
+                               .count = (size_t)r->frames };
+
+    sequence_name(opt->input, header.name, sizeof header.name);
+    return write_output(opt, rep, &header, &src);
+}
+
+static fap_err encode_coefficients(const options *opt, run_report *rep)
+{
+    fap_coefficients_config cfg;
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+
+    fap_coefficients_config_init(&cfg);
+    cfg.rate_hz = opt->capture.rate_hz;
+    cfg.start_s = opt->capture.start_s;
+    cfg.end_s = opt->capture.end_s;
+    cfg.smooth_hz = opt->capture.smooth_hz;
+    cfg.fill = opt->capture.fill;
+    cfg.neutral_frame = opt->capture.neutral_frame;
+    if (opt->neutral_given)
+        cfg.rest = cfg.neutral_frame >= 0 ? FAP_REST_FRAME : FAP_REST_FOUND;
+    if (!(rep->coefficients->rate_hz > 0) && opt->rate_given) {
+        rep->coefficients->rate_hz = cfg.rate_hz;
+        rep->rate_assumed = 1;
+    }
+    const fap_err err = fap_coefficients_encode(&rep->performance, rep->coefficients, &cfg, where);
+    return err == FAP_OK ? write_performance(opt, rep) : fail(rep, err, opt->input, where);
+}
+
 /* @p where: why it is no capture. A text that has no frame is taken for one. */
 static fap_err encode_stream(const options *opt, run_report *rep, const uint8_t *data, size_t size,
                              const char *where)
@@ -183,7 +230,8 @@ static fap_err encode_stream(const options *opt, run_report *rep, const uint8_t 
     const fap_err err = read_stream(opt, rep, data, size, NULL);
 
     if (err == FAP_OK && rep->stream.frames)
-        return transcode(opt, rep, data, size);
+        return options_want_livelink(opt) ? write_livelink(opt, rep, data, size)
+                                          : transcode(opt, rep, data, size);
     rep->is_stream = 0;
     if (stream_is_bits(data, size) || opt->strict)
         return err;
@@ -205,8 +253,15 @@ static fap_err encode_bytes(const options *opt, run_report *rep, const uint8_t *
     const fap_err err = bits ? FAP_E_UNKNOWN_FORMAT : fap_take_read(&rep->take, data, size, &cfg, where);
     if (err == FAP_OK)
         return encode(opt, rep);
-    if (err != FAP_E_UNKNOWN_FORMAT)
+    if (err != FAP_E_UNKNOWN_FORMAT && err != FAP_E_UNSUPPORTED)
         return fail(rep, err, opt->input, where);
+    char why[FAP_ERROR_TEXT_SIZE];
+    const fap_err other =
+        bits ? FAP_E_UNKNOWN_FORMAT : fap_coefficients_read(&rep->coefficients, data, size, &cfg, why);
+    if (other == FAP_OK)
+        return encode_coefficients(opt, rep);
+    if (other != FAP_E_UNKNOWN_FORMAT)
+        return fail(rep, other, opt->input, why);
     return encode_stream(opt, rep, data, size, where);
 }
 
@@ -247,6 +302,8 @@ void run_close(run_report *rep)
 {
     fap_take_close(&rep->take);
     fap_capture_close(&rep->capture);
+    fap_coefficients_close(&rep->coefficients);
+    fap_performance_close(&rep->performance);
     if (rep->inspection)
         inspection_free(rep->inspection);
     free(rep->inspection);

@@ -4,9 +4,11 @@
 #define ENCODER_RUN_H
 
 #include <fap/studio/capture.h>
+#include <fap/studio/coefficients.h>
 
 #include "common/streams.h"
 #include "encoder/inspection.h"
+#include "encoder/livelink.h"
 #include "encoder/options.h"
 #include "encoder/output.h"
 
@@ -16,6 +18,8 @@ typedef struct run_report {
     const char *path;                     /* in which file */
     fap_take *take;                       /* as read */
     fap_capture *capture;
+    fap_coefficients *coefficients; /* as read, where it has no points */
+    fap_performance *performance;
     stream_summary stream;
     inspection *inspection; /* of an .fba that was inspected */
     stream_options reading;
@@ -23,9 +27,10 @@ typedef struct run_report {
     fap_fit *fit;                           /* of --fit, or beside the input */
     char fit_found[4096];                   /* beside the input, "" where not */
     written_report written;
-    int no_device;    /* what went wrong is a device: exit 3 */
-    int is_stream;    /* the input was a FAP file */
-    int rate_assumed; /* the take's rate is --fps, for want of a better one */
+    livelink_report livelink; /* of a .csv that was written */
+    int no_device;            /* what went wrong is a device: exit 3 */
+    int is_stream;            /* the input was a FAP file */
+    int rate_assumed;         /* the take's rate is --fps, for want of a better one */
 } run_report;
 
 fap_err run(const options *opt, run_report *rep);

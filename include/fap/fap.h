@@ -13,6 +13,7 @@
 #include <fap/encoder.h>
 #include <fap/error.h>
 #include <fap/face.h>
+#include <fap/facs.h>
 #include <fap/fapu.h>
 #include <fap/fit.h>
 #include <fap/frame.h>
