@@ -45,7 +45,7 @@ static double median_step(const double *second, const double *part, uint32_t cou
     if (!n)
         return 0;
     qsort(list, n, sizeof *list, by_size);
-    return list[n / 2];
+    return list[(n - 1) / 2];
 }
 
 static double nearest_base(double base)
@@ -130,7 +130,7 @@ static double usual_step(const coef_rows *r, double *list)
     if (!n || n < (r->count - 1) - (r->count - 1) / 4)
         return 0;
     qsort(list, n, sizeof *list, by_size);
-    return list[n / 2];
+    return list[(n - 1) / 2];
 }
 
 /* Numbers the rows by whole steps, -1 for those that do not go on. Returns the frames; 0: too many. */

@@ -48,21 +48,27 @@ static int first_line(text_lines *lines, text *line)
     return 0;
 }
 
+static text unquoted(text t)
+{
+    return t.length >= 2 && t.start[0] == '"' ? (text){ t.start + 1, t.length - 2 } : t;
+}
+
+/* Names enough, or one and the column that only these tables have. */
 static int livelink_claims(const uint8_t *data, size_t size)
 {
     text_lines lines = text_open(data, size);
     text line;
-    int names = 0;
+    int names = 0, counts = 0;
 
     if (!first_line(&lines, &line))
         return 0;
     const char separator = text_separator(line);
     for (size_t cells = 0; line.length && cells < TEXT_MAX_CELLS && names < FEWEST_NAMES; cells++) {
-        const text cell = next_cell(&line, separator);
-        const int quoted = cell.length > 2 && cell.start[0] == '"';
-        names += coef_channel_of((text){ cell.start + quoted, cell.length - 2 * (size_t)quoted }) >= 0;
+        const text cell = unquoted(next_cell(&line, separator));
+        names += coef_channel_of(cell) >= 0;
+        counts |= text_is(cell, "BlendShapeCount");
     }
-    return names >= FEWEST_NAMES ? 80 : 0;
+    return names >= FEWEST_NAMES || (names && counts) ? 80 : 0;
 }
 
 static int is_one_of(text t, const char *const *words)

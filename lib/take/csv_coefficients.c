@@ -18,7 +18,7 @@ static fap_err coefficients_read(take_source *src, fap_take **take)
 {
     (void)take;
     return take_fail(src, FAP_E_UNSUPPORTED,
-                     "coefficients or action units, not points: fap_coefficients_read() reads them");
+                     "ARKit coefficients or action units, not points: fap_coefficients_read() reads them");
 }
 
 const take_driver take_driver_coefficients = { "coefficients", coefficients_claims, coefficients_read };

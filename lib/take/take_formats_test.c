@@ -228,7 +228,7 @@ TEST(take, coefficients_are_named_for_what_they_are)
 {
     assert_refused("Timecode,BlendShapeCount,EyeBlinkLeft\n00:00:00:01.0,61,0.5\n", FAP_E_UNSUPPORTED,
                    "ARKit");
-    assert_refused("frame,confidence,AU01_r\n1,1,0.5\n", FAP_E_UNSUPPORTED, "3D landmarks");
+    assert_refused("frame,confidence,AU01_r\n1,1,0.5\n", FAP_E_UNSUPPORTED, "action units");
 }
 
 TEST(table, picture_fractions_count_widths_and_heights)
