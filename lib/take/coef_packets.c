@@ -151,14 +151,10 @@ static void walk_lengths(cursor c, recording *r)
 {
     packet p;
 
-    while (c.left) {
+    while (c.left && !c.bad) {
         const uint32_t size = u32(&c);
         cursor one = { c.at, size, 0 };
-        if (!take_bytes(&c, size)) {
-            r->broken++;
-            return;
-        }
-        if (read_packet(&one, &p))
+        if (take_bytes(&c, size) && read_packet(&one, &p))
             use(r, &p);
         else
             r->broken++;
