@@ -11,10 +11,17 @@
 #include "base/mem.h"
 #include "capture/performance.h"
 
+/* Of a point of the take, at rest, head axes. */
+typedef struct marker_place {
+    int known;
+    float mm[3];
+} marker_place;
+
 struct fap_capture {
     fap_allocator alloc;
     fap_frame *frames;
     uint8_t (*seen)[FAP_POINT_COUNT]; /* [report.frames], a fap_sample each */
+    marker_place *place;              /* [report.take_points] */
     fap_capture_report report;
 };
 
@@ -194,6 +201,14 @@ static int has_faps(const fap_capture_report *r)
     return 0;
 }
 
+static fap_err keep_places(fap_capture *c, const performance *p)
+{
+    c->place = fap_mem_calloc(&c->alloc, p->take->point_count, sizeof *c->place);
+    for (uint32_t i = 0; i < p->take->point_count && c->place; i++)
+        c->place[i].known = head_place(p, i, c->place[i].mm);
+    return c->place ? FAP_OK : FAP_E_NOMEM;
+}
+
 fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_capture_config *cfg,
                            char *where)
 {
@@ -210,6 +225,8 @@ fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_ca
     fap_err err = encode(&p, take);
     if (err == FAP_OK && !has_faps(&c->report))
         err = performance_fail(&p, FAP_E_NOT_FOUND, "the markers are known, but none of them carries a FAP");
+    if (err == FAP_OK)
+        err = keep_places(c, &p);
     if (err == FAP_OK) {
         c->frames = p.out;
         c->seen = p.seen;
@@ -243,6 +260,14 @@ const fap_capture_report *fap_capture_report_get(const fap_capture *c)
     return &c->report;
 }
 
+int fap_capture_marker_place(const fap_capture *c, uint32_t point, float xyz_mm[3])
+{
+    if (point >= c->report.take_points || !c->place[point].known)
+        return 0;
+    memcpy(xyz_mm, c->place[point].mm, sizeof c->place[point].mm);
+    return 1;
+}
+
 void fap_capture_close(fap_capture **c)
 {
     if (!*c)
@@ -250,6 +275,7 @@ void fap_capture_close(fap_capture **c)
     const fap_allocator a = (*c)->alloc;
     fap_mem_free(&a, (*c)->frames);
     fap_mem_free(&a, (*c)->seen);
+    fap_mem_free(&a, (*c)->place);
     fap_mem_free(&a, *c);
     *c = NULL;
 }

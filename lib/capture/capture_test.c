@@ -398,3 +398,20 @@ TEST(capture, the_brow_take_moves_the_brows_and_leaves_the_mouth)
     assert_true(r->fap[3].max < 250);
     fap_capture_close(&c);
 }
+
+TEST(capture, places_of_markers_are_those_of_the_face_at_rest)
+{
+    static const int8_t turned[3] = { 3, 1, 2 };
+    fap_take *take = make_take(turned);
+    fap_capture *c = encode(take, NULL);
+    float chin[3], lip[3];
+
+    assert_true(fap_capture_marker_place(c, (uint32_t)fap_take_find(take, "2.1"), chin));
+    assert_true(fap_capture_marker_place(c, (uint32_t)fap_take_find(take, "8.3"), lip));
+    assert_float_equal(lip[0] - chin[0], 25, 0.5);
+    assert_float_equal(lip[1] - chin[1], 40, 0.5);
+    assert_float_equal(lip[2] - chin[2], 3, 0.5);
+    assert_false(fap_capture_marker_place(c, take->point_count, chin));
+    fap_capture_close(&c);
+    fap_take_close(&take);
+}

@@ -60,6 +60,8 @@ void points_ease(performance *p);
 fap_err fapu_settle(performance *p);
 void faps_extract(performance *p);
 
+/* A place at rest in head axes; 0 when it has none. */
+int head_place(const performance *p, uint32_t point, float out[3]);
 /* The mean of a feature point's markers at rest, take axes; 0 when one of them has no place. */
 int neutral_point(const performance *p, int feature_point, double out[3]);
 

@@ -14,6 +14,13 @@ static void to_head(const performance *p, const double v[3], float out[3])
         out[row] = (float)(p->axes[row][0] * v[0] + p->axes[row][1] * v[1] + p->axes[row][2] * v[2]);
 }
 
+int head_place(const performance *p, uint32_t point, float out[3])
+{
+    if (p->placed[point])
+        to_head(p, p->place[point], out);
+    return p->placed[point];
+}
+
 /* --- rings --- */
 
 static void assign(performance *p, const char *name, int marker)

@@ -112,6 +112,13 @@ FAP_API const fap_capture_report *fap_capture_report_get(const fap_capture *c);
  * @param fap    1 .. FAP_COUNT
  */
 FAP_API fap_sample fap_capture_fill_of(const fap_capture *c, uint32_t frame, int fap);
+/**
+ * Where a point of the take sits on the neutral face, head motion taken out: x left, y up, z forward, millimetres of the
+ * take. What it is there for: report.markers.role[point].
+ * @param point  0 .. report.take_points - 1
+ * @return 0: it has no place, as it is never seen together with the head; @p xyz_mm is not set
+ */
+FAP_API int fap_capture_marker_place(const fap_capture *c, uint32_t point, float xyz_mm[3]);
 /** Sets @p *c to NULL; accepts NULL. */
 FAP_API void fap_capture_close(fap_capture **c);
 
