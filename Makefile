@@ -57,7 +57,10 @@ RENDER_SRC := $(call notest,$(wildcard player/render/*.c))
 ENC_SRC  := $(call notest,$(wildcard encoder/*.c encoder/*/*.c))
 PLAY_SRC := $(filter-out player/render/%,$(call notest,$(wildcard player/*.c player/*/*.c)))
 BANK_SRC := $(call notest,$(wildcard databank/*.c databank/*/*.c))
-TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c encoder/*/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c)
+TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c encoder/*/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c \
+                       tests/track/*_test.c)
+# Films of a face between mirrors, with the truth: for the unit tests, the figures and two programs.
+FILM_SRC := $(filter-out tests/track/main_%,$(call notest,$(wildcard tests/track/*.c)))
 obj       = $(patsubst %.c,$(B)/%.o,$(1))
 
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
@@ -105,6 +108,7 @@ $(B)/libfap-common.a: $(call obj,$(COMMON_SRC))
 $(B)/libfap-gpio-$(GPIO).a: $(B)/common/gpio/gpio_$(GPIO).o
 $(B)/common/gpio/gpio_$(GPIO).o: FAP_CFLAGS += $(GPIO_CFLAGS)
 $(B)/libfap-render.a: $(call obj,$(RENDER_SRC))
+$(B)/libfap-film.a: $(call obj,$(FILM_SRC))
 $(B)/%.a:
 	$(call SAY,AR)
 	$(Q)mkdir -p $(@D) && rm -f $@ && $(AR) rcs $@ $^
@@ -133,7 +137,10 @@ FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildc
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
 ALL_LIBS := $(PLOT_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
 
-$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
+$(B)/mirror-film $(B)/mirror-study: $(B)/mirror-%: $(B)/tests/track/main_%.o $(B)/libfap-film.a $(BASE)
+	$(call SAY,LD)
+	$(Q)$(LINK) $(STUDIO_LIBS) -lm
+$(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-film.a $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
 $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
@@ -183,7 +190,7 @@ setup:             ## install the Debian packages that are missing (scripts/pack
 
 test: setup        ## install what is missing, build, run every test
 	+$(Q)$(MAKE) --no-print-directory config=$(config) check
-check: all face $(B)/unit $(B)/fapplay-lines $(B)/conformance $(REPLAY) $(B)/examples
+check: all face $(B)/unit $(B)/mirror-film $(B)/fapplay-lines $(B)/conformance $(REPLAY) $(B)/examples
 	$(Q)B=$(B) tests/run
 unit: $(B)/unit    ## unit tests alone
 	$(Q)$(B)/unit
@@ -225,7 +232,7 @@ $(B)/gen/decoder_size.h: scripts/decoder_size include/fap/decoder.h $(B)/libfap.
 	$(Q)size() { scripts/decoder_size $$1 $(filter-out -M%,$(FAP_CFLAGS)); }; \
 	    echo "enum { DECODER_SIZE = $$(size "$(CC)"), DECODER_SIZE_ARM64 = $$(size "$(ARM64_CC)") };" >$@
 $(B)/tests/bench/fba.o: $(B)/gen/decoder_size.h
-$(B)/bench: $(call obj,$(BENCH_SRC)) $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
+$(B)/bench: $(call obj,$(BENCH_SRC)) $(B)/libfap-film.a $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)
 bench: setup       ## the figures: one a line, and build/bench.json
