@@ -18,7 +18,7 @@ enum { ROWS = 2 * (1 + FAP_MIRROR_MAX) };
 /* --- a place in a view --- */
 
 /* Where @p place appears, directly or in a mirror. 0: behind the lens. */
-static int appears(const fap_mirror *mirror, int view, const double place[3], double ray[2])
+static int appears(const fap_mirror_plane *mirror, int view, const double place[3], double ray[2])
 {
     double at[3] = { place[0], place[1], place[2] };
 
@@ -32,8 +32,8 @@ static int appears(const fap_mirror *mirror, int view, const double place[3], do
 }
 
 /* Errors of all views, 0 for those that were not seen. 0: behind the lens in one. */
-static int errors_at(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v, const double place[3],
-                     double error[ROWS])
+static int errors_at(const fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v,
+                     const double place[3], double error[ROWS])
 {
     for (int view = 0; view <= mirrors; view++) {
         double ray[2];
@@ -69,7 +69,7 @@ static int views_of(const fap_mirror_views *v, int mirrors)
 /* --- a first place --- */
 
 /* Mirrors see each other's points when the direct view is blocked: the point nearest to both rays, in front of the lens. */
-static int between_mirrors(const fap_mirror *mirror, const fap_mirror_views *v, double place[3])
+static int between_mirrors(const fap_mirror_plane *mirror, const fap_mirror_views *v, double place[3])
 {
     double from[2][3], along[2][3], gap[3];
 
@@ -93,7 +93,8 @@ static int between_mirrors(const fap_mirror *mirror, const fap_mirror_views *v, 
     return place[2] > 0;
 }
 
-static int first_place(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v, double place[3])
+static int first_place(const fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v,
+                       double place[3])
 {
     fap_mirror_pair pair;
     double sum[3] = { 0 };
@@ -120,7 +121,7 @@ static int first_place(const fap_mirror *mirror, int mirrors, const fap_mirror_v
 /* --- the best place --- */
 
 /* A step of Gauss and Newton, derivatives by differences. */
-static int step(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v, const double place[3],
+static int step(const fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v, const double place[3],
                 const double error[ROWS], double damping, double move[3])
 {
     const double h = 1e-6 * place[2];
@@ -150,7 +151,7 @@ static int step(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v
     return 1;
 }
 
-static double settle(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v, double place[3])
+static double settle(const fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v, double place[3])
 {
     enum { STEPS = 15 };
     double error[ROWS], damping = 1e-6;
@@ -182,7 +183,7 @@ static double settle(const fap_mirror *mirror, int mirrors, const fap_mirror_vie
     return now;
 }
 
-int fap_mirror_locate(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v, double place[3],
+int fap_mirror_locate(const fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v, double place[3],
                       double *residual)
 {
     const int views = views_of(v, mirrors);
@@ -211,7 +212,7 @@ static void across(const double n[3], double a[3], double b[3])
     cross3(n, a, b);
 }
 
-static void moved_by(const fap_mirror *mirror, int mirrors, const double *x, fap_mirror *out)
+static void moved_by(const fap_mirror_plane *mirror, int mirrors, const double *x, fap_mirror_plane *out)
 {
     for (int i = 0; i < mirrors; i++) {
         double a[3], b[3];
@@ -233,7 +234,7 @@ typedef struct refining {
 } refining;
 
 /* The errors that the best place of a point leaves; from the tolerance on they grow with their root (Huber 1964). */
-static void weighted_errors(const refining *w, const fap_mirror *mirror, const fap_mirror_views *v,
+static void weighted_errors(const refining *w, const fap_mirror_plane *mirror, const fap_mirror_views *v,
                             double e[ROWS])
 {
     double place[3];
@@ -249,7 +250,7 @@ static void weighted_errors(const refining *w, const fap_mirror *mirror, const f
         e[r] *= sqrt(2 * t * length - t * t) / length;
 }
 
-static double cost_of(const refining *w, const fap_mirror *mirror)
+static double cost_of(const refining *w, const fap_mirror_plane *mirror)
 {
     double sum = 0, e[ROWS];
 
@@ -262,7 +263,7 @@ static double cost_of(const refining *w, const fap_mirror *mirror)
 
 typedef double normal_equations[MAX_UNKNOWNS][MAX_UNKNOWNS + 1];
 
-static void add_point(const refining *w, const fap_mirror *mirror, const fap_mirror *beside,
+static void add_point(const refining *w, const fap_mirror_plane *mirror, const fap_mirror_plane *beside,
                       const fap_mirror_views *v, normal_equations a)
 {
     const double h = 1e-6;
@@ -283,9 +284,9 @@ static void add_point(const refining *w, const fap_mirror *mirror, const fap_mir
 }
 
 /* @p a: the normal equations of a step from @p mirror. */
-static void linearise(const refining *w, const fap_mirror *mirror, normal_equations a)
+static void linearise(const refining *w, const fap_mirror_plane *mirror, normal_equations a)
 {
-    fap_mirror beside[MAX_UNKNOWNS][FAP_MIRROR_MAX] = { 0 };
+    fap_mirror_plane beside[MAX_UNKNOWNS][FAP_MIRROR_MAX] = { 0 };
 
     memset(a, 0, sizeof(normal_equations));
     for (int k = 0; k < w->unknowns; k++) {
@@ -307,7 +308,7 @@ static void solve(const refining *w, normal_equations equations, double damping,
     fap_gauss_solve(&a[0][0], MAX_UNKNOWNS + 1, w->unknowns, 1e-300, x);
 }
 
-double fap_mirror_refine(fap_mirror *mirror, int mirrors, const fap_mirror_views *v, int count,
+double fap_mirror_refine(fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v, int count,
                          double tolerance)
 {
     enum { STEPS = 20, ENOUGH = 2000 };
@@ -318,7 +319,7 @@ double fap_mirror_refine(fap_mirror *mirror, int mirrors, const fap_mirror_views
     int stale = 1;
 
     for (int i = 0; i < STEPS && damping < 1e6; i++) {
-        fap_mirror there[FAP_MIRROR_MAX];
+        fap_mirror_plane there[FAP_MIRROR_MAX];
         if (stale)
             linearise(&w, mirror, equations);
         solve(&w, equations, damping, x);
@@ -351,7 +352,7 @@ static void sort_up(double *value, int count)
 }
 
 /* A depth grows with its mirror's distance: both mirrors must give the same. */
-int fap_mirror_join(fap_mirror mirror[FAP_MIRROR_MAX], const fap_mirror_views *v, int count)
+int fap_mirror_join(fap_mirror_plane mirror[FAP_MIRROR_MAX], const fap_mirror_views *v, int count)
 {
     enum { ENOUGH = 500 };
     double ratio[ENOUGH];
@@ -375,7 +376,7 @@ int fap_mirror_join(fap_mirror mirror[FAP_MIRROR_MAX], const fap_mirror_views *v
     return found;
 }
 
-void fap_mirror_scale(fap_mirror *mirror, int mirrors, double factor)
+void fap_mirror_scale(fap_mirror_plane *mirror, int mirrors, double factor)
 {
     for (int i = 0; i < mirrors; i++)
         mirror[i].distance *= factor;

@@ -191,7 +191,7 @@ static fap_err undetermined(char *where, const char *why)
     return FAP_E_DATA;
 }
 
-fap_err fap_mirror_find(fap_mirror *mirror, const fap_mirror_pair *pair, int count, double tolerance,
+fap_err fap_mirror_find(fap_mirror_plane *mirror, const fap_mirror_pair *pair, int count, double tolerance,
                         fap_mirror_fit *fit, char *where)
 {
     enum { ROUNDS = 12 };
@@ -199,7 +199,7 @@ fap_err fap_mirror_find(fap_mirror *mirror, const fap_mirror_pair *pair, int cou
     const double limit = 2 * tolerance;
 
     *fit = (fap_mirror_fit){ .pairs = count > 0 ? count : 0 };
-    *mirror = (fap_mirror){ { 0, 0, -1 }, -1 };
+    *mirror = (fap_mirror_plane){ { 0, 0, -1 }, -1 };
     if (count < 2)
         return undetermined(where, "a mirror needs two points at least that are seen in it and directly");
     if (!best_guess(pair, count, tolerance, u))
@@ -223,7 +223,7 @@ fap_err fap_mirror_find(fap_mirror *mirror, const fap_mirror_pair *pair, int cou
 
 /* --- places --- */
 
-void fap_mirror_reflect(const fap_mirror *mirror, const double place[3], double image[3])
+void fap_mirror_reflect(const fap_mirror_plane *mirror, const double place[3], double image[3])
 {
     const double behind = dot3(mirror->normal, place) - mirror->distance;
 
@@ -234,7 +234,7 @@ void fap_mirror_reflect(const fap_mirror *mirror, const double place[3], double 
 /*
  * z p reflected is z' p' (eq. 12): z H p - z' p' = -2 d n with H = I - 2 n n^T; three equations for two depths.
  */
-static int depths(const fap_mirror *mirror, const double p[3], const double q[3], double z[2])
+static int depths(const fap_mirror_plane *mirror, const double p[3], const double q[3], double z[2])
 {
     const double *n = mirror->normal;
     double hp[3] = { p[0], p[1], p[2] };
@@ -249,7 +249,7 @@ static int depths(const fap_mirror *mirror, const double p[3], const double q[3]
     return z[0] > 0 && z[1] > 0;
 }
 
-int fap_mirror_place(const fap_mirror *mirror, const fap_mirror_pair *pair, double place[3])
+int fap_mirror_place(const fap_mirror_plane *mirror, const fap_mirror_pair *pair, double place[3])
 {
     double p[3], q[3], z[2], virtual_place[3], back[3];
 

@@ -28,10 +28,10 @@ static double noise(uint32_t *state)
 }
 
 /* Beside a face half a metre away, turned towards it. */
-static void make_mirrors(fap_mirror m[2])
+static void make_mirrors(fap_mirror_plane m[2])
 {
     for (int i = 0; i < 2; i++) {
-        m[i] = (fap_mirror){ { i ? -0.77 : 0.74, 0.05, -0.64 }, i ? -390 : -400 };
+        m[i] = (fap_mirror_plane){ { i ? -0.77 : 0.74, 0.05, -0.64 }, i ? -390 : -400 };
         unit3(m[i].normal);
     }
 }
@@ -48,7 +48,7 @@ static void place_of(int i, double place[3])
     place[2] = 600 + z * cos(yaw) - x * sin(yaw) + 20 * sin(0.4 * frame);
 }
 
-static void see(const fap_mirror m[2], int i, double pixels, uint32_t *state, fap_mirror_views *v)
+static void see(const fap_mirror_plane m[2], int i, double pixels, uint32_t *state, fap_mirror_views *v)
 {
     double at[3], image[3];
 
@@ -64,7 +64,7 @@ static void see(const fap_mirror m[2], int i, double pixels, uint32_t *state, fa
     }
 }
 
-static void see_all(const fap_mirror m[2], double pixels, fap_mirror_views *v)
+static void see_all(const fap_mirror_plane m[2], double pixels, fap_mirror_views *v)
 {
     uint32_t state = 7;
 
@@ -86,7 +86,7 @@ static double degrees_between(const double a[3], const double b[3])
 }
 
 /* RMS distance from the truth of the first frame's dots; @p aligned: wherever the camera is. */
-static double place_error(const fap_mirror *m, const fap_mirror_views *v, int aligned)
+static double place_error(const fap_mirror_plane *m, const fap_mirror_views *v, int aligned)
 {
     double got[DOTS][3], want[DOTS][3], weight[DOTS], sum = 0;
     rigid_pose pose;
@@ -108,7 +108,7 @@ static double place_error(const fap_mirror *m, const fap_mirror_views *v, int al
 }
 
 /* As with a ruler: two dots that are known to be so far apart. */
-static double ruler_factor(const fap_mirror *m, const fap_mirror_views *v)
+static double ruler_factor(const fap_mirror_plane *m, const fap_mirror_views *v)
 {
     double a[3], b[3], ta[3], tb[3];
 
@@ -123,7 +123,7 @@ static double ruler_factor(const fap_mirror *m, const fap_mirror_views *v)
 
 TEST(mirror, exact_pairs_give_the_exact_mirror)
 {
-    fap_mirror truth[2], got;
+    fap_mirror_plane truth[2], got;
     fap_mirror_views v[POINTS];
     fap_mirror_pair pair[POINTS];
     fap_mirror_fit fit;
@@ -141,7 +141,7 @@ TEST(mirror, exact_pairs_give_the_exact_mirror)
 
 TEST(mirror, places_are_exact_where_pictures_are)
 {
-    fap_mirror m[2];
+    fap_mirror_plane m[2];
     fap_mirror_views v[POINTS];
     fap_mirror_pair pair[POINTS];
 
@@ -160,7 +160,7 @@ TEST(mirror, places_are_exact_where_pictures_are)
 
 TEST(mirror, a_third_of_wrong_pairs_does_no_harm)
 {
-    fap_mirror truth[2], got;
+    fap_mirror_plane truth[2], got;
     fap_mirror_views v[POINTS];
     fap_mirror_pair pair[POINTS];
     fap_mirror_fit fit;
@@ -177,7 +177,7 @@ TEST(mirror, a_third_of_wrong_pairs_does_no_harm)
 
 TEST(mirror, half_a_pixel_of_noise_costs_less_than_the_paper_s_millimetres)
 {
-    fap_mirror truth[2], m[2];
+    fap_mirror_plane truth[2], m[2];
     fap_mirror_views v[POINTS];
     fap_mirror_pair pair[POINTS];
     fap_mirror_fit fit;
@@ -201,7 +201,7 @@ TEST(mirror, half_a_pixel_of_noise_costs_less_than_the_paper_s_millimetres)
 
 TEST(mirror, a_point_that_is_hidden_from_the_lens_is_seen_by_two_mirrors)
 {
-    fap_mirror m[2];
+    fap_mirror_plane m[2];
     fap_mirror_views v[POINTS];
 
     make_mirrors(m);
@@ -217,7 +217,7 @@ TEST(mirror, a_point_that_is_hidden_from_the_lens_is_seen_by_two_mirrors)
 TEST(mirror, what_determines_no_mirror_is_refused_with_the_reason)
 {
     char where[FAP_ERROR_TEXT_SIZE] = "";
-    fap_mirror got;
+    fap_mirror_plane got;
     fap_mirror_fit fit;
     fap_mirror_pair same[4] = { { { 0.1, 0.2 }, { 0.1, 0.2 } },
                                 { { 0.2, 0.1 }, { 0.2, 0.1 } },

@@ -76,7 +76,7 @@ TEST(film, most_dots_are_seen_directly_and_in_the_mirror_on_their_side)
 /* The ruler's ends are balls before the dark wall: weigh the pixels by how much they stand out. */
 static void centre_of(const shot *s, const film_dot *d, int view, int channel, double centre[2])
 {
-    const int x0 = (int)d->pixel[view][0], y0 = (int)d->pixel[view][1], reach = 5;
+    const int x0 = (int)d->pixel[view][0], y0 = (int)d->pixel[view][1], reach = 4;
     double sum = 0, x = 0, y = 0;
 
     for (int v = y0 - reach; v <= y0 + reach; v++)

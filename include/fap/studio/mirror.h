@@ -31,10 +31,10 @@ FAP_API void fap_camera_ray(const fap_camera *cam, const double pixel[2], double
 FAP_API int fap_camera_project(const fap_camera *cam, const double place[3], double pixel[2]);
 
 /** The plane normal . x = distance; the normal is of length 1, its z negative: it looks back at the camera. */
-typedef struct fap_mirror {
+typedef struct fap_mirror_plane {
     double normal[3];
     double distance; /**< negative, as the camera is on the side that the normal points to */
-} fap_mirror;
+} fap_mirror_plane;
 
 /** One point in two views. */
 typedef struct fap_mirror_pair {
@@ -58,15 +58,15 @@ typedef struct fap_mirror_fit {
  * @param where     FAP_ERROR_TEXT_SIZE bytes, may be NULL
  * @return FAP_OK; FAP_E_DATA the pairs do not determine a mirror
  */
-FAP_API FAP_NODISCARD fap_err fap_mirror_find(fap_mirror *mirror, const fap_mirror_pair *pair, int count,
-                                              double tolerance, fap_mirror_fit *fit, char *where);
+FAP_API FAP_NODISCARD fap_err fap_mirror_find(fap_mirror_plane *mirror, const fap_mirror_pair *pair,
+                                              int count, double tolerance, fap_mirror_fit *fit, char *where);
 /** Behind the mirror what is before it, and back: x - 2 (n . x - d) n. */
-FAP_API void fap_mirror_reflect(const fap_mirror *mirror, const double place[3], double image[3]);
+FAP_API void fap_mirror_reflect(const fap_mirror_plane *mirror, const double place[3], double image[3]);
 /**
  * Depths along both rays by least squares, and the mean of the direct point and the re-mirrored virtual one (eq. 12 to 15).
  * @return 0: the rays do not meet before the camera and the mirror
  */
-FAP_API int fap_mirror_place(const fap_mirror *mirror, const fap_mirror_pair *pair, double place[3]);
+FAP_API int fap_mirror_place(const fap_mirror_plane *mirror, const fap_mirror_pair *pair, double place[3]);
 
 #define FAP_MIRROR_MAX 2
 
@@ -81,22 +81,22 @@ typedef struct fap_mirror_views {
  * @param residual  may be NULL: RMS of the rays' errors
  * @return 0: fewer than two views, or they do not meet
  */
-FAP_API int fap_mirror_locate(const fap_mirror *mirror, int mirrors, const fap_mirror_views *v,
+FAP_API int fap_mirror_locate(const fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v,
                               double place[3], double *residual);
 /**
  * The distance of the second mirror against the first, from points that are seen directly and in both.
  * @return how many points that was; 0: the distance stays
  */
-FAP_API int fap_mirror_join(fap_mirror mirror[FAP_MIRROR_MAX], const fap_mirror_views *v, int count);
+FAP_API int fap_mirror_join(fap_mirror_plane mirror[FAP_MIRROR_MAX], const fap_mirror_views *v, int count);
 /** All sizes times @p factor: known length over found length. */
-FAP_API void fap_mirror_scale(fap_mirror *mirror, int mirrors, double factor);
+FAP_API void fap_mirror_scale(fap_mirror_plane *mirror, int mirrors, double factor);
 /**
  * All mirrors together, so that the pictures of all points fit best: directions, and the distance of the second against the
  * first, which stays what it is. Wrong pairs weigh little. Of many points some 2000 are looked at.
  * @param tolerance  as above
  * @return RMS of the rays' errors
  */
-FAP_API double fap_mirror_refine(fap_mirror *mirror, int mirrors, const fap_mirror_views *v, int count,
+FAP_API double fap_mirror_refine(fap_mirror_plane *mirror, int mirrors, const fap_mirror_views *v, int count,
                                  double tolerance);
 
 #ifdef __cplusplus
