@@ -99,7 +99,7 @@ static void hang_mirror(film *f, int i)
     add_scaled3(f->glass[i], along, along[2] > 0 ? -52 : 52);
     for (int k = 0; k < 3; k++) {
         f->half[i][0][k] = 116 * along[k];
-        f->half[i][1][k] = 150 * up[k];
+        f->half[i][1][k] = 165 * up[k];
     }
 }
 
@@ -292,7 +292,7 @@ static void dot_at(const film *f, int dot, double at_s, double place[3], double 
 /* Held still before the throat, aslant so that its ends differ in depth. */
 static void ruler_end(const film *f, int dot, double place[3])
 {
-    const double way[3] = { 0.94, 0.05, 0.338 }, middle[3] = { 0, 142, FACE_AWAY_MM - 60 };
+    const double way[3] = { 0.94, 0.12, 0.3 }, middle[3] = { 0, 138, FACE_AWAY_MM - 60 };
     double along[3] = { way[0], way[1], way[2] };
 
     unit3(along);
