@@ -292,7 +292,7 @@ static void dot_at(const film *f, int dot, double at_s, double place[3], double 
 /* Held still before the throat, aslant so that its ends differ in depth. */
 static void ruler_end(const film *f, int dot, double place[3])
 {
-    const double way[3] = { 0.94, 0.12, 0.3 }, middle[3] = { 0, 138, FACE_AWAY_MM - 60 };
+    const double way[3] = { 0.8, 0.44, 0.33 }, middle[3] = { 0, 160, FACE_AWAY_MM - 60 };
     double along[3] = { way[0], way[1], way[2] };
 
     unit3(along);

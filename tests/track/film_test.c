@@ -73,15 +73,25 @@ TEST(film, most_dots_are_seen_directly_and_in_the_mirror_on_their_side)
     drop(s);
 }
 
-/* The ruler's ends are balls before the dark wall: weigh the pixels by how much they stand out. */
-static void centre_of(const shot *s, const film_dot *d, int view, int channel, double centre[2])
+/* How much a pixel differs from another; 0 where that is hardly to be seen. */
+static double stands_out(const shot *s, int x, int y, int x0, int y0)
+{
+    double sum = -20;
+
+    for (int k = 0; k < 3; k++)
+        sum += fabs((double)at(s, x, y, k) - at(s, x0, y0, k));
+    return fmax(0, sum);
+}
+
+/* The ruler's ends are balls before the dark wall. */
+static void centre_of(const shot *s, const film_dot *d, int view, double centre[2])
 {
     const int x0 = (int)d->pixel[view][0], y0 = (int)d->pixel[view][1], reach = 4;
     double sum = 0, x = 0, y = 0;
 
     for (int v = y0 - reach; v <= y0 + reach; v++)
         for (int u = x0 - reach; u <= x0 + reach; u++) {
-            const double w = fabs((double)at(s, u, v, channel) - at(s, x0 - reach, y0 - reach, channel));
+            const double w = stands_out(s, u, v, x0 - reach, y0 - reach);
             sum += w, x += w * u, y += w * v;
         }
     centre[0] = x / sum;
@@ -101,7 +111,7 @@ TEST(film, what_is_drawn_is_where_the_truth_says)
             if (!seen(&s->dot[i], view))
                 continue;
             looked_at++;
-            centre_of(s, &s->dot[i], view, i == FILM_DOTS - 2 ? 2 : 1, centre);
+            centre_of(s, &s->dot[i], view, centre);
             assert_true(fabs(centre[0] - s->dot[i].pixel[view][0]) < 0.15);
             assert_true(fabs(centre[1] - s->dot[i].pixel[view][1]) < 0.15);
         }
