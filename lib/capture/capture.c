@@ -13,8 +13,9 @@
 
 /* Of a point of the take, at rest, head axes. */
 typedef struct marker_place {
-    int known;
+    uint8_t known, on_face;
     float mm[3];
+    fap_capture_spot spot;
 } marker_place;
 
 struct fap_capture {
@@ -22,6 +23,8 @@ struct fap_capture {
     fap_frame *frames;
     uint8_t (*seen)[FAP_POINT_COUNT]; /* [report.frames], a fap_sample each */
     marker_place *place;              /* [report.take_points] */
+    float (*moved)[4];                /* [report.frames][report.take_points]: x, y, z, seen */
+    double face_scale;
     fap_capture_report report;
 };
 
@@ -41,6 +44,17 @@ const char *fap_origin_name(fap_origin origin)
     case FAP_ORIGIN_MEASURED: return "measured";
     case FAP_ORIGIN_SCALED: return "typical, scaled";
     case FAP_ORIGIN_NONE: break;
+    }
+    return "none";
+}
+
+const char *fap_how_name(fap_how how)
+{
+    switch (how) {
+    case FAP_HOW_DIRECT: return "direct";
+    case FAP_HOW_RBF: return "RBF";
+    case FAP_HOW_DERIVED: return "derived";
+    case FAP_HOW_NONE: break;
     }
     return "none";
 }
@@ -137,6 +151,7 @@ static void tidy(performance *p)
     fap_mem_free(&a, p->point);
     fap_mem_free(&a, p->seen);
     fap_mem_free(&a, p->out);
+    face_close(p);
     fap_take_close(&p->take);
 }
 
@@ -166,7 +181,8 @@ static fap_err understand_face(performance *p)
     rings_assign(p);
     points_place(p);
     points_ease(p);
-    return fapu_settle(p);
+    err = fapu_settle(p);
+    return err == FAP_OK ? points_retarget(p) : err;
 }
 
 static fap_err encode(performance *p, const fap_take *take)
@@ -201,12 +217,47 @@ static int has_faps(const fap_capture_report *r)
     return 0;
 }
 
+static void keep_spot(marker_place *m, const face_spot *spot)
+{
+    m->on_face = spot->known && spot->share[0] + spot->share[1] + spot->share[2] > 0.5f;
+    m->spot.off_mm = (float)spot->off_mm;
+    for (int i = 0; i < 3; i++) {
+        m->spot.mm[i] = (float)spot->at[i];
+        m->spot.vertex[i] = spot->vertex[i];
+        m->spot.share[i] = spot->share[i];
+    }
+}
+
 static fap_err keep_places(fap_capture *c, const performance *p)
 {
-    c->place = fap_mem_calloc(&c->alloc, p->take->point_count, sizeof *c->place);
-    for (uint32_t i = 0; i < p->take->point_count && c->place; i++)
-        c->place[i].known = head_place(p, i, c->place[i].mm);
-    return c->place ? FAP_OK : FAP_E_NOMEM;
+    const uint32_t n = p->take->point_count;
+
+    c->face_scale = p->face.scale;
+    c->place = fap_mem_calloc(&c->alloc, n, sizeof *c->place);
+    c->moved = fap_mem_calloc(&c->alloc, (size_t)n * p->frames, sizeof *c->moved);
+    if (!c->place || !c->moved)
+        return FAP_E_NOMEM;
+    for (uint32_t i = 0; i < n; i++) {
+        c->place[i].known = head_place(p, i, c->place[i].mm) != 0;
+        keep_spot(&c->place[i], &p->face.spot[i]);
+    }
+    for (uint32_t f = 0; f < p->frames; f++)
+        for (uint32_t i = 0; i < n; i++) {
+            float *m = c->moved[(size_t)f * n + i];
+            m[3] = marker_moved(p, f, i, m) ? 1 : 0;
+        }
+    return FAP_OK;
+}
+
+static void forget(fap_capture *c)
+{
+    const fap_allocator a = c->alloc;
+
+    fap_mem_free(&a, c->frames);
+    fap_mem_free(&a, c->seen);
+    fap_mem_free(&a, c->place);
+    fap_mem_free(&a, c->moved);
+    fap_mem_free(&a, c);
 }
 
 fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_capture_config *cfg,
@@ -234,7 +285,7 @@ fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_ca
         p.seen = NULL;
         *out = c;
     } else {
-        fap_mem_free(&take->alloc, c);
+        forget(c);
         if (where)
             memcpy(where, text, sizeof text);
     }
@@ -268,14 +319,32 @@ int fap_capture_marker_place(const fap_capture *c, uint32_t point, float xyz_mm[
     return 1;
 }
 
+int fap_capture_marker_on_face(const fap_capture *c, uint32_t point, fap_capture_spot *out)
+{
+    if (point >= c->report.take_points || !c->place[point].on_face)
+        return 0;
+    *out = c->place[point].spot;
+    return 1;
+}
+
+double fap_capture_face_scale(const fap_capture *c)
+{
+    return c->face_scale;
+}
+
+int fap_capture_marker_moved(const fap_capture *c, uint32_t frame, uint32_t point, float xyz_mm[3])
+{
+    if (frame >= c->report.frames || point >= c->report.take_points)
+        return 0;
+    const float *m = c->moved[(size_t)frame * c->report.take_points + point];
+    memcpy(xyz_mm, m, 3 * sizeof *m);
+    return m[3] > 0;
+}
+
 void fap_capture_close(fap_capture **c)
 {
     if (!*c)
         return;
-    const fap_allocator a = (*c)->alloc;
-    fap_mem_free(&a, (*c)->frames);
-    fap_mem_free(&a, (*c)->seen);
-    fap_mem_free(&a, (*c)->place);
-    fap_mem_free(&a, *c);
+    forget(*c);
     *c = NULL;
 }

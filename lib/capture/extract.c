@@ -120,7 +120,9 @@ static void extract_fap(performance *p, int fap)
     if (point < 0 || !p->known[point] || !is_measurable(p, fap))
         return;
     p->report->fap[fap].point = (int8_t)point;
-    p->report->fap[fap].near = stands_in || p->report->markers.point[point].near;
+    p->report->fap[fap].origin = p->origin[point];
+    p->report->fap[fap].near =
+        stands_in || p->origin[point].how != FAP_HOW_DIRECT || p->report->markers.point[point].near;
     for (uint32_t f = 0; f < p->frames; f++) {
         if (p->seen[f][point])
             put(p, f, fap, value_of(p, info, p->point[f][point]));

@@ -8,6 +8,7 @@
 
 #include <fap/studio/capture.h>
 
+#include "capture/on_face.h"
 #include "capture/rigid.h"
 
 typedef struct performance {
@@ -37,6 +38,10 @@ typedef struct performance {
     float neutral[FAP_POINT_COUNT][3];
     uint8_t known[FAP_POINT_COUNT];
 
+    /* on_face.c, retarget.c: markers on the bank's face, and how each feature point came to its motion */
+    on_face face;
+    fap_capture_origin origin[FAP_POINT_COUNT];
+
     fap_frame *out; /* [frames] */
 } performance;
 
@@ -62,6 +67,14 @@ void faps_extract(performance *p);
 
 /* A place at rest in head axes; 0 when it has none. */
 int head_place(const performance *p, uint32_t point, float out[3]);
+/* How far it is from there in a frame, head axes; a fap_sample. */
+int marker_moved(const performance *p, uint32_t frame, uint32_t point, float out[3]);
+/* The bank, once; then where the markers are on its face. */
+fap_err face_open(performance *p);
+void face_place_markers(performance *p);
+void face_close(performance *p);
+/* Feature points without a marker of their own, from those around them. */
+fap_err points_retarget(performance *p);
 /* The mean of a feature point's markers at rest, take axes; 0 when one of them has no place. */
 int neutral_point(const performance *p, int feature_point, double out[3]);
 

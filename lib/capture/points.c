@@ -21,6 +21,18 @@ int head_place(const performance *p, uint32_t point, float out[3])
     return p->placed[point];
 }
 
+int marker_moved(const performance *p, uint32_t frame, uint32_t point, float out[3])
+{
+    double v[3];
+
+    if (!p->placed[point] || !head_still(p, frame, point, v))
+        return FAP_SAMPLE_MISSING;
+    for (int axis = 0; axis < 3; axis++)
+        v[axis] -= p->place[point][axis];
+    to_head(p, v, out);
+    return p->take->valid[(size_t)frame * p->take->point_count + point];
+}
+
 /* --- rings --- */
 
 static void assign(performance *p, const char *name, int marker)

@@ -7,6 +7,7 @@
 #ifndef FAP_STUDIO_CAPTURE_H
 #define FAP_STUDIO_CAPTURE_H
 
+#include <fap/bank.h>
 #include <fap/fapu.h>
 #include <fap/frame.h>
 #include <fap/studio/clean.h>
@@ -40,6 +41,7 @@ typedef struct fap_capture_config {
     size_t markers_size;
     double smooth_hz; /**< 0: as the rates ask for; > 0: low-pass; < 0: none */
     fap_fill fill;    /**< FAP_FILL_ALL */
+    const fap_bank *bank; /**< NULL: the built-in face; the markers are placed on it, kept for the call only */
 } fap_capture_config;
 FAP_API void fap_capture_config_init(fap_capture_config *cfg);
 
@@ -55,6 +57,25 @@ typedef enum fap_origin {
 /** "given", "marker set", "found", "measured", "typical, scaled"; static. */
 FAP_API const char *fap_origin_name(fap_origin origin);
 
+/** How the motion of a feature point was found. */
+typedef enum fap_how {
+    FAP_HOW_NONE,
+    FAP_HOW_DIRECT,  /**< a marker sits on the point, or the mean of some does */
+    FAP_HOW_RBF,     /**< mixed from the markers around it */
+    FAP_HOW_DERIVED, /**< follows from other points: an inner lip from the outer one */
+} fap_how;
+/** "direct", "RBF", "derived"; static. */
+FAP_API const char *fap_how_name(fap_how how);
+
+#define FAP_CAPTURE_MARKERS 4
+/** Where the motion of a feature point comes from. */
+typedef struct fap_capture_origin {
+    uint8_t how;          /**< a ::fap_how */
+    uint8_t marker_count; /**< those that count most */
+    int16_t marker[FAP_CAPTURE_MARKERS];
+    float share[FAP_CAPTURE_MARKERS]; /**< of the marker's motion; of all markers together they add up to 1 */
+} fap_capture_origin;
+
 /** One FAP over the whole take. */
 typedef struct fap_capture_fap {
     uint32_t coded; /**< frames that carry it */
@@ -62,6 +83,8 @@ typedef struct fap_capture_fap {
     uint32_t beyond; /**< frames outside the range that Table C-1 gives */
     int8_t point;    /**< the feature point it was taken from; -1 head rotation */
     uint8_t near;    /**< 1: from a marker near that point, or from another point that stands in for it */
+    fap_capture_origin origin;
+    const char *reason; /**< why it is not sent; NULL when it is. Static */
 } fap_capture_fap;
 
 #define FAP_CAPTURE_MAX_RIGID 16
@@ -119,6 +142,22 @@ FAP_API fap_sample fap_capture_fill_of(const fap_capture *c, uint32_t frame, int
  * @return 0: it has no place, as it is never seen together with the head; @p xyz_mm is not set
  */
 FAP_API int fap_capture_marker_place(const fap_capture *c, uint32_t point, float xyz_mm[3]);
+/** The skin below a marker, were it glued to the bank's face: a place in a triangle. */
+typedef struct fap_capture_spot {
+    float mm[3];        /**< on the bank's neutral face */
+    float off_mm;       /**< how far from the skin the fit had put it */
+    uint32_t vertex[3]; /**< of the bank's mesh */
+    float share[3];     /**< of each vertex */
+} fap_capture_spot;
+/**
+ * Where a point of the take sits on the face of the configuration's bank (NULL: the built-in one).
+ * @return 0: too few feature points to tell, or it is not on the skin
+ */
+FAP_API int fap_capture_marker_on_face(const fap_capture *c, uint32_t point, fap_capture_spot *out);
+/** Millimetres of the bank's face in one of the take's; 0: too few feature points to tell. */
+FAP_API double fap_capture_face_scale(const fap_capture *c);
+/** Displacement of a point of the take from its place at rest, head motion taken out, head axes, millimetres; 0: not seen. */
+FAP_API int fap_capture_marker_moved(const fap_capture *c, uint32_t frame, uint32_t point, float xyz_mm[3]);
 /** Sets @p *c to NULL; accepts NULL. */
 FAP_API void fap_capture_close(fap_capture **c);
 
