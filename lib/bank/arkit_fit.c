@@ -9,7 +9,7 @@
 
 #include <fap/tables.h>
 
-#include "bank/qp.h"
+#include "bank/arkit_fit.h"
 #include "base/mem.h"
 #include "gen/proportions.h"
 #include "param/arkit.h"
@@ -18,16 +18,6 @@ enum { MOST_TRIES = 4 };
 
 /* Square millimetres that a coefficient of 1 must earn: of two ways to the same face, the one with less in it. */
 static const double price_mm2 = 0.1;
-
-struct fap_arkit_fit {
-    fap_allocator alloc;
-    fap_qp qp;
-    float value[FAP_ARKIT_COUNT][FAP_COUNT + 1];
-    double price[FAP_COUNT + 1];  /* square millimetres, with importance, of a unit squared */
-    uint8_t asked[FAP_COUNT + 1]; /* of the frame that gram was made for */
-    double gram[FAP_ARKIT_COUNT][FAP_ARKIT_COUNT];
-    int has_gram;
-};
 
 /* --- life --- */
 
@@ -61,6 +51,7 @@ static void read_tables(fap_arkit_fit *f)
         for (int s = 0; s < FAP_ARKIT_COUNT; s++)
             f->value[s][fap] = (float)fap_arkit_value(s, fap);
     }
+    arkit_fit_name(f);
 }
 
 fap_err fap_arkit_fit_open(fap_arkit_fit **fit, const fap_allocator *alloc)
