@@ -50,12 +50,12 @@ void result_set(result *r, result_field field, const char *fmt, ...)
 
 /* --- filling --- */
 
-static int coded_faps(const fap_capture_report *c)
+static int coded_faps(const fap_capture_fap *faps)
 {
     int count = 0;
 
     for (int fap = 1; fap <= FAP_COUNT; fap++)
-        count += c->fap[fap].coded > 0;
+        count += faps[fap].coded > 0;
     return count;
 }
 
@@ -70,13 +70,27 @@ static void fill_capture(result *r, const run_report *rep)
     result_set(r, RESULT_length_s, "%.3f", c->take_length_s);
     result_set(r, RESULT_frames, "%" PRIu32, c->frames);
     result_set(r, RESULT_rate_hz, "%g", c->rate_hz);
-    result_set(r, RESULT_faps, "%d", coded_faps(c));
+    result_set(r, RESULT_faps, "%d", coded_faps(c->fap));
     result_set(r, RESULT_samples_filled, "%" PRIu32, c->clean.samples_filled);
     result_set(r, RESULT_gaps_left, "%" PRIu32, c->clean.gaps_left);
     if (c->rigid_count)
         result_set(r, RESULT_head_rms_mm, "%.3f", c->rigid_rms_mm);
     result_set(r, RESULT_neutral_s, "%.2f", c->neutral_s);
     result_set(r, RESULT_notes, "%" PRIu32, rep->take->note_count + c->note_count);
+}
+
+static void fill_coefficients(result *r, const run_report *rep)
+{
+    const fap_coefficients_report *c = fap_performance_report(rep->performance);
+
+    result_set(r, RESULT_format, "%s", c->format);
+    result_set(r, RESULT_take_frames, "%" PRIu32, c->take_frames);
+    result_set(r, RESULT_take_rate_hz, "%.6g", c->take_rate_hz);
+    result_set(r, RESULT_length_s, "%.3f", c->take_length_s);
+    result_set(r, RESULT_frames, "%" PRIu32, c->frames);
+    result_set(r, RESULT_rate_hz, "%g", c->rate_hz);
+    result_set(r, RESULT_faps, "%d", coded_faps(c->fap));
+    result_set(r, RESULT_notes, "%" PRIu32, rep->coefficients->note_count + c->note_count);
 }
 
 static void fill_stream(result *r, const run_report *rep)
@@ -99,6 +113,8 @@ void result_fill(result *r, const run_report *rep, fap_err err)
                                              : result_failed);
     if (rep->capture)
         fill_capture(r, rep);
+    else if (rep->performance)
+        fill_coefficients(r, rep);
     else if (rep->is_stream)
         fill_stream(r, rep);
     if (w->bits && w->length_s > 0)

@@ -26,10 +26,18 @@ static void describe_capture(const fap_capture_report *r, char *out)
              (unsigned)r->frames, r->rate_hz);
 }
 
+static void describe_coefficients(const fap_coefficients_report *r, char *out)
+{
+    snprintf(out, SUBTITLE_SIZE, "%s, %u frames at %g Hz, %.2f s; %u FAP frames at %g Hz", r->format,
+             (unsigned)r->take_frames, r->take_rate_hz, r->take_length_s, (unsigned)r->frames, r->rate_hz);
+}
+
 static void describe(const run_report *rep, const plot_content *p, char *out)
 {
     if (rep->capture)
         describe_capture(fap_capture_report_get(rep->capture), out);
+    else if (rep->performance)
+        describe_coefficients(fap_performance_report(rep->performance), out);
     else
         snprintf(out, SUBTITLE_SIZE, "%zu FAP frames at %g Hz", p->frame_count, p->rate_hz);
 }
