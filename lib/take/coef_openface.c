@@ -14,8 +14,8 @@
 enum { EYES = 4, HEAD = 3, MOST_UNITS = FAP_FACS_MAX_NUMBER };
 
 static const double least_confidence = 0.75;
-/* OpenFace's regression never reaches 5 for lids that are shut: blinks of four takes peak at 3 to 3.5. */
-static const double blink_full = 3.2, full = 5;
+/* How much of AU45 shuts the lids depends on the person: blinks of three takes peak at 1.8, 2.5 and 3.5 of 5. */
+static const double full = 5, least_blink = 1.5, most_blink = 3.5;
 /* A unit that is only said to be there. */
 static const double present_share = 0.5;
 
@@ -261,19 +261,36 @@ static int is_divided(const fap_coefficients *t, size_t samples)
     return fine;
 }
 
+static int is_blink(const fap_coefficients *t, size_t sample)
+{
+    return t->channel[sample % t->channel_count] == FAP_CHANNEL_AU + 45;
+}
+
+/* Everybody blinks: the highest there is counts as shut, unless it is too low to be one. */
+static double full_blink(const fap_coefficients *t, size_t samples, double unit)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < samples; i++)
+        if (is_blink(t, i))
+            most = fmax(most, unit * (double)t->value[i]);
+    return most < least_blink || most > most_blink ? most_blink : most;
+}
+
 static void scale_units(coef_rows *rows)
 {
     fap_coefficients *t = rows->take;
     const size_t samples = (size_t)rows->count * t->channel_count;
     const int divided = is_divided(t, samples);
+    const double unit = divided ? full : 1, blink = full_blink(t, samples, unit);
 
     for (size_t i = 0; i < samples; i++)
-        if (is_unit(t, i)) {
-            const int is_blink = t->channel[i % t->channel_count] == FAP_CHANNEL_AU + 45;
-            t->value[i] *= (float)((divided ? full : 1) / (is_blink ? blink_full : full));
-        }
+        if (is_unit(t, i))
+            t->value[i] *= (float)(unit / (is_blink(t, i) ? blink : full));
     if (divided)
         coef_note(t, "intensities are at most 1, with more than two decimals: taken as divided by 5");
+    if (fap_coefficients_find(t, FAP_CHANNEL_AU + 45) >= 0)
+        coef_note(t, "AU45 of %.3g, of 5, is taken as lids that are shut", blink);
 }
 
 /* --- all --- */

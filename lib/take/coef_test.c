@@ -484,7 +484,7 @@ TEST(openface, intensities_are_shares_of_five)
     assert_string_equal(take->format, "openface units");
     assert_float_equal(value_of(take, 0, unit(1)), 0.5, 1e-6);
     assert_float_equal(value_of(take, 0, unit(12)), 1, 1e-6);
-    assert_float_equal(value_of(take, 0, unit(45)), 1, 1e-6); /* lids are shut before 5 */
+    assert_float_equal(value_of(take, 0, unit(45)), 1, 1e-6); /* a blink, so the lids are shut */
     assert_float_equal(value_of(take, 0, unit(28)), 0.5, 1e-6);
     assert_float_equal(value_of(take, 1, unit(12)), 0.2, 1e-6);
     fap_coefficients_close(&take);

@@ -27,6 +27,11 @@ double bench_now_s(void);
 
 /* Seconds of take encoded in a second. */
 double bench_encode_x_realtime(void);
+/* The same of real takes of four formats. */
+double bench_encode_x_realtime_c3d(void);
+double bench_encode_x_realtime_openface(void);
+double bench_encode_x_realtime_mediapipe(void);
+double bench_encode_x_realtime_livelink(void);
 
 /* Pictures a second of a moving face, and what a frame costs against bare OpenGL; the player's first picture. */
 double bench_offscreen_fps_52k(void);
@@ -97,6 +102,12 @@ double bench_pca_ccr_3(void);
 double bench_arkit_fap_mm(void);
 double bench_arkit_face_mm(void);
 double bench_arkit_us(void);
+/* ARKit's coefficients to FAPs and back, on real takes: as coefficients, on the default face, on ICT-FaceKit's shapes. */
+double bench_arkit_roundtrip_error(void);
+double bench_arkit_roundtrip_mm(void);
+double bench_arkit_roundtrip_ict_mm(void);
+/* Coefficients to FAPs to ICT-FaceKit as a bank, against its shapes. */
+double bench_arkit_played_ict_mm(void);
 
 /* The farthest vertex of a glTF export from the player's. */
 double bench_glb_worst_mm(void);

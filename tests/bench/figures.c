@@ -5,6 +5,7 @@
 #include "bench.h"
 
 static const char faces[] = "../shared/data/faces/ict";
+static const char takes[] = "../shared/data/takes";
 static const char held_out[] =
     "RMS, 20 held-out mixes of six shapes, half of them with one the bank lacks; face 190 mm high";
 
@@ -12,6 +13,15 @@ const bench_figure bench_figures[] = {
     { "encode_x_realtime", "x", bench_encode_x_realtime,
       "tests/assets/demo_take.c3d: 56 markers at 120 Hz, read and encoded at 25",
       "tests/assets/demo_take.c3d" },
+    { "encode_x_realtime_c3d", "x", bench_encode_x_realtime_c3d,
+      "optical_animface/jaw_60hz.c3d: 41 markers at 60 Hz; file in memory to frames, as above, to 25 Hz",
+      takes },
+    { "encode_x_realtime_openface", "x", bench_encode_x_realtime_openface,
+      "openface/openfacer_lara_0001-0600.csv: 68 points at 30 Hz", takes },
+    { "encode_x_realtime_mediapipe", "x", bench_encode_x_realtime_mediapipe,
+      "mediapipe/wolfgang_facemesh478_24fps.csv: 478 points at 24 Hz", takes },
+    { "encode_x_realtime_livelink", "x", bench_encode_x_realtime_livelink,
+      "livelink/alex_rom_3.csv: 61 coefficients at 30 Hz", takes },
     { "offscreen_fps_640x480_52k", "frames/s", bench_offscreen_fps_52k,
       "ICT-FaceKit, 52,220 triangles, every vertex moved, smoothed, read back; at least 40 where two cores "
       "are free",
@@ -127,6 +137,22 @@ const bench_figure bench_figures[] = {
       "more; median",
       "a take" },
     { "arkit_us", "us", bench_arkit_us, "a frame of FAPs to coefficients, demo take", "a take" },
+    { "arkit_roundtrip_error", "share", bench_arkit_roundtrip_error,
+      "ARKit's 52 coefficients to FAPs and back: mean absolute error of a coefficient; three Live Link takes "
+      "at their own "
+      "rate, mean of the takes",
+      takes },
+    { "arkit_roundtrip_mm", "mm", bench_arkit_roundtrip_mm,
+      "the same on the default face: mean distance of the vertices that move by 0.1 mm or more; every tenth "
+      "frame",
+      takes },
+    { "arkit_roundtrip_ict_mm", "mm", bench_arkit_roundtrip_ict_mm,
+      "the same on ICT-FaceKit, moved by its own shapes and not by FAPs; face 190 mm high", faces },
+    { "arkit_played_ict_mm", "mm", bench_arkit_played_ict_mm,
+      "coefficients to FAPs to ICT-FaceKit as a bank, against its own shapes: what a player shows of them; "
+      "EyeLook and "
+      "MouthClose left out",
+      faces },
     { "glb_worst_mm", "mm", bench_glb_worst_mm,
       "fapplay -o take.glb of the demo take, default face: the farthest vertex of all key frames", "a take" },
     { NULL, NULL, NULL, NULL, NULL },
