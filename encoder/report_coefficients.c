@@ -76,6 +76,15 @@ static void say_faps(const fap_coefficients_report *r)
         tool_note("  %u of them go beyond the range that Table C-1 gives", beyond);
 }
 
+/* Said, not refused: a batch has points and coefficients under one command line. */
+static void say_unused(const options *opt)
+{
+    if (opt->markers_path || opt->fapu_path || opt->capture.axes || opt->capture.rigid ||
+        opt->mm_per_unit > 0)
+        tool_note(
+            "note: --markers, --fapu, --axes, --rigid and --unit are for points; these are coefficients");
+}
+
 void report_coefficients_say(const options *opt, const run_report *rep)
 {
     const fap_coefficients_report *r = fap_performance_report(rep->performance);
@@ -88,6 +97,7 @@ void report_coefficients_say(const options *opt, const run_report *rep)
         tool_note("note: %s", rep->coefficients->note[i]);
     for (uint32_t i = 0; i < r->note_count; i++)
         tool_note("note: %s", r->note[i]);
+    say_unused(opt);
     say_channels(r);
     say_cleaning(r);
     tool_note("%s: %u frames at %g Hz", opt->output, (unsigned)r->frames, r->rate_hz);
