@@ -38,8 +38,8 @@ static const char help[] =
     "      --fps R           frames a second of the output (25)\n"
     "      --take-rate R     frames a second of the take, where the file is silent or wrong\n"
     "      --rigid A,B,C     markers that follow the head\n"
-    "      --smooth M        auto, none, or a cut-off frequency in Hz\n"
-    "      --fill M          none, spline (gaps to 0.2 s), all (longer ones are eased)\n"
+    "      --smooth M        auto, none, a cut-off frequency in Hz, or zhu (the mean of three frames)\n"
+    "      --fill M          none, spline (gaps to 0.2 s), take (longer ones by the other markers), all\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
     "      --plot OUT.png|svg  the FAPs as curves, gaps and fills marked; where the markers are on the face\n"
     "      --batch FOLDER -o OUT   every take in FOLDER and below; goes on where it was stopped; "
@@ -232,23 +232,24 @@ static int parse_unit(options *opt, const char *text)
 static int parse_smooth(options *opt, const char *text)
 {
     opt->capture.smooth_hz = 0;
+    opt->capture.average = !strcmp(text, "zhu");
     if (!strcmp(text, "none"))
         opt->capture.smooth_hz = -1;
-    else if (unless_auto(text))
+    else if (!opt->capture.average && unless_auto(text))
         return number(opt, "smooth", text, 0.5, 1000, &opt->capture.smooth_hz);
     return 1;
 }
 
 static int parse_fill(options *opt, const char *text)
 {
-    static const char *const names[] = { "none", "spline", "all" };
+    static const char *const names[] = { "none", "spline", "take", "all" };
 
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i <= FAP_FILL_ALL; i++)
         if (!strcmp(text, names[i])) {
             opt->capture.fill = (fap_fill)i;
             return 1;
         }
-    tool_error("--fill %s: expected none, spline or all", text);
+    tool_error("--fill %s: expected none, spline, take or all", text);
     return usage(opt);
 }
 

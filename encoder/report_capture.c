@@ -66,13 +66,46 @@ static void say_head(const run_report *rep, const fap_capture_report *r)
     tool_note("neutral: %.2f s%s", r->neutral_s, r->neutral_found ? ", found" : "");
 }
 
-static void say_cleaning(const fap_capture_report *r)
+/* "2 spline, 1 motion": gaps of a marker by method. */
+static void add_methods(line *l, const fap_clean_point *c)
+{
+    char text[32];
+
+    for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++) {
+        if (!c->gaps_by[kind])
+            continue;
+        snprintf(text, sizeof text, "%u %s", (unsigned)c->gaps_by[kind], fap_sample_name((fap_sample)kind));
+        add(l, ", ", text);
+    }
+}
+
+static void say_cleaned_point(const char *name, const fap_clean_point *c, double rate_hz)
+{
+    line methods = { "", 0 };
+    uint32_t filled = 0;
+    char error[48] = "";
+
+    add_methods(&methods, c);
+    for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++)
+        filled += c->filled[kind];
+    if (c->error_mm > 0)
+        snprintf(error, sizeof error, ", about %.2f mm off", (double)c->error_mm);
+    tool_note("  %-20s %u spikes, %u gaps, the longest %.2f s; %u samples filled (%s)%s, %u left", name,
+              (unsigned)c->spikes, (unsigned)c->gaps, c->longest_gap / rate_hz, (unsigned)filled,
+              methods.used ? methods.text : "none", error, (unsigned)c->unfilled);
+}
+
+static void say_cleaning(const run_report *rep, const fap_capture_report *r)
 {
     const fap_clean_report *c = &r->clean;
+    const fap_clean_point *points = fap_capture_clean_points(rep->capture);
 
-    tool_note("cleaned: %u spikes out, %u short gaps closed (%u samples), %u long gaps, %u of them eased",
+    tool_note("cleaned: %u spikes out, %u gaps closed (%u samples), %u gaps left, %u of feature points eased",
               (unsigned)c->spikes, (unsigned)c->gaps_closed, (unsigned)c->samples_filled,
               (unsigned)c->gaps_left, (unsigned)r->gaps_eased);
+    for (uint32_t i = 0; i < r->take_points; i++)
+        if (points[i].spikes || points[i].gaps)
+            say_cleaned_point(rep->take->name[i], &points[i], r->take_rate_hz);
 }
 
 static void say_fapu(const fap_capture_report *r)
@@ -128,7 +161,7 @@ void report_capture_say(const options *opt, const run_report *rep)
               (unsigned)r->take_points, (unsigned)r->take_frames, r->take_rate_hz, r->take_length_s);
     say_notes(rep, r);
     say_markers(rep, r);
-    say_cleaning(r);
+    say_cleaning(rep, r);
     say_head(rep, r);
     say_fapu(r);
     tool_note("%s: %u frames at %g Hz", opt->output, (unsigned)r->frames, r->rate_hz);
@@ -175,14 +208,42 @@ static void json_markers(json *j, const run_report *rep, const fap_capture_repor
     json_close(j, '}');
 }
 
-static void json_cleaning(json *j, const fap_capture_report *r)
+static void json_cleaned_point(json *j, const char *name, const fap_clean_point *c)
 {
+    uint32_t filled = 0;
+
+    json_open(j, name, '{');
+    json_integer(j, "spikes", c->spikes);
+    json_integer(j, "gaps", c->gaps);
+    json_integer(j, "longest_gap", c->longest_gap);
+    json_open(j, "gaps_by", '{');
+    for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++) {
+        filled += c->filled[kind];
+        if (c->gaps_by[kind])
+            json_integer(j, fap_sample_name((fap_sample)kind), c->gaps_by[kind]);
+    }
+    json_close(j, '}');
+    json_integer(j, "filled", filled);
+    json_integer(j, "unfilled", c->unfilled);
+    json_number(j, "error_mm", (double)c->error_mm);
+    json_close(j, '}');
+}
+
+static void json_cleaning(json *j, const run_report *rep, const fap_capture_report *r)
+{
+    const fap_clean_point *points = fap_capture_clean_points(rep->capture);
+
     json_open(j, "cleaning", '{');
     json_integer(j, "spikes", r->clean.spikes);
     json_integer(j, "gaps_closed", r->clean.gaps_closed);
     json_integer(j, "samples_filled", r->clean.samples_filled);
     json_integer(j, "gaps_left", r->clean.gaps_left);
     json_integer(j, "gaps_eased", r->gaps_eased);
+    json_open(j, "markers", '{');
+    for (uint32_t i = 0; i < r->take_points; i++)
+        if (points[i].spikes || points[i].gaps)
+            json_cleaned_point(j, rep->take->name[i], &points[i]);
+    json_close(j, '}');
     json_close(j, '}');
 }
 
@@ -268,7 +329,7 @@ void report_capture_json(const options *opt, const run_report *rep)
     json_number(&j, "rate_hz", r->rate_hz);
     report_written_json(&j, opt, &rep->written);
     json_markers(&j, rep, r);
-    json_cleaning(&j, r);
+    json_cleaning(&j, rep, r);
     json_head(&j, rep, r);
     json_neutral(&j, r);
     json_faps(&j, r);

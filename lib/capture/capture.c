@@ -25,6 +25,7 @@ struct fap_capture {
     marker_place *place;              /* [report.take_points] */
     float (*moved)[4];                /* [report.frames][report.take_points]: x, y, z, seen */
     double face_scale;
+    fap_clean_point *cleaned;         /* [report.take_points] */
     fap_capture_report report;
 };
 
@@ -101,9 +102,23 @@ static fap_err crop(performance *p, const fap_take *take, fap_take **out)
     return FAP_OK;
 }
 
+static fap_err clean(performance *p, fap_take *take)
+{
+    static const uint32_t methods[] = { [FAP_FILL_NONE] = 0,
+                                        [FAP_FILL_SPLINE] = FAP_CLEAN_SPLINE,
+                                        [FAP_FILL_TAKE] = FAP_CLEAN_TAKE,
+                                        [FAP_FILL_ALL] = FAP_CLEAN_TAKE };
+    fap_clean_config cfg;
+
+    fap_clean_config_init(&cfg);
+    cfg.average = p->cfg->average;
+    cfg.methods = (unsigned)p->cfg->fill <= FAP_FILL_ALL ? methods[p->cfg->fill] : 0;
+    p->cleaned = fap_mem_calloc(&take->alloc, take->point_count, sizeof *p->cleaned);
+    return p->cleaned ? fap_take_clean(take, &cfg, &p->report->clean, p->cleaned) : FAP_E_NOMEM;
+}
+
 static fap_err prepare(performance *p, const fap_take *take)
 {
-    fap_clean_config clean;
     fap_take *cropped;
 
     if (!(take->rate_hz > 0))
@@ -111,15 +126,12 @@ static fap_err prepare(performance *p, const fap_take *take)
     const fap_err err = crop(p, take, &cropped);
     if (err != FAP_OK)
         return err;
-    fap_clean_config_init(&clean);
-    if (p->cfg->fill == FAP_FILL_NONE)
-        clean.gap_s = 0;
-    fap_take_clean(cropped, &clean, &p->report->clean);
-    const fap_err resampled = fap_take_resample(cropped, p->cfg->rate_hz, p->cfg->smooth_hz, &p->take);
+    fap_err made = clean(p, cropped);
+    if (made == FAP_OK)
+        made = fap_take_resample(cropped, p->cfg->rate_hz, p->cfg->smooth_hz, &p->take);
     fap_take_close(&cropped);
-    if (resampled != FAP_OK)
-        return performance_fail(p, resampled, "%g frames a second cannot be made of this take",
-                                p->cfg->rate_hz);
+    if (made != FAP_OK)
+        return performance_fail(p, made, "%g frames a second cannot be made of this take", p->cfg->rate_hz);
     p->frames = p->take->frame_count;
     return FAP_OK;
 }
@@ -139,11 +151,10 @@ static fap_err make_room(performance *p)
                                                                                          : FAP_E_NOMEM;
 }
 
-static void tidy(performance *p)
+static void tidy(performance *p, const fap_allocator *alloc)
 {
-    if (!p->take)
-        return;
-    const fap_allocator a = p->take->alloc;
+    const fap_allocator a = *alloc;
+    fap_mem_free(&a, p->cleaned);
     fap_mem_free(&a, p->pose);
     fap_mem_free(&a, p->posed);
     fap_mem_free(&a, p->place);
@@ -256,6 +267,7 @@ static void forget(fap_capture *c)
     fap_mem_free(&a, c->frames);
     fap_mem_free(&a, c->seen);
     fap_mem_free(&a, c->place);
+    fap_mem_free(&a, c->cleaned);
     fap_mem_free(&a, c->moved);
     fap_mem_free(&a, c);
 }
@@ -281,6 +293,8 @@ fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_ca
     if (err == FAP_OK) {
         c->frames = p.out;
         c->seen = p.seen;
+        c->cleaned = p.cleaned;
+        p.cleaned = NULL;
         p.out = NULL;
         p.seen = NULL;
         *out = c;
@@ -289,13 +303,18 @@ fap_err fap_capture_encode(fap_capture **out, const fap_take *take, const fap_ca
         if (where)
             memcpy(where, text, sizeof text);
     }
-    tidy(&p);
+    tidy(&p, &take->alloc);
     return err;
 }
 
 const fap_frame *fap_capture_frames(const fap_capture *c)
 {
     return c->frames;
+}
+
+const fap_clean_point *fap_capture_clean_points(const fap_capture *c)
+{
+    return c->cleaned;
 }
 
 fap_sample fap_capture_fill_of(const fap_capture *c, uint32_t frame, int fap)

@@ -1,19 +1,24 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * Spikes and short gaps. A spike stands out of the median of its neighbours by more than they themselves
- * scatter; it becomes a gap. A short gap is closed by the cubic that continues both sides. Source: F. R.
- * Hampel, The influence curve and its role in robust estimation, 1974.
+ * Spikes, and the account of cleaning. A spike stands out of the median of its neighbours by more than they themselves
+ * scatter; it becomes a gap, which fill.c closes. Source: F. R. Hampel, The influence curve and its role in robust
+ * estimation, 1974.
  */
 #include <math.h>
 #include <string.h>
 
 #include <fap/studio/clean.h>
 
+#include "base/mem.h"
+#include "capture/fill.h"
+
 enum { HALF_WINDOW = 4 };
 
 void fap_clean_config_init(fap_clean_config *cfg)
 {
-    *cfg = (fap_clean_config){ .struct_size = sizeof *cfg, .spike_mm = 3, .gap_s = 0.2 };
+    *cfg = (fap_clean_config){
+        .struct_size = sizeof *cfg, .spike_mm = 3, .gap_s = 0.2, .methods = FAP_CLEAN_TAKE
+    };
 }
 
 const char *fap_sample_name(fap_sample sample)
@@ -124,58 +129,64 @@ static uint32_t drop_spikes(fap_take *take, uint32_t point, float least_mm)
     return spikes;
 }
 
-/* --- gaps --- */
+/* --- the thesis's way --- */
 
-/* Slope per frame on the outer side of a gap, from the sample one step further out where there is one. */
-static float slope(const fap_take *take, uint32_t edge, int step, uint32_t point, int axis)
+/* The mean of the frame and those beside it, where they are there: a spike is spread, not removed. */
+static void average(fap_take *take, uint32_t point)
 {
-    const int64_t outer = (int64_t)edge + step;
-
-    if (outer < 0 || outer >= take->frame_count || !take->valid[at(take, (uint32_t)outer, point)])
-        return 0;
-    return (take->xyz[at(take, (uint32_t)outer, point)][axis] - take->xyz[at(take, edge, point)][axis]) /
-           (float)step;
-}
-
-/* Cubic Hermite curve through both edges with the slopes they have. */
-static void close_gap(fap_take *take, uint32_t before, uint32_t after, uint32_t point)
-{
-    const float span = (float)(after - before);
-
-    for (int axis = 0; axis < 3; axis++) {
-        const float a = take->xyz[at(take, before, point)][axis], b = take->xyz[at(take, after, point)][axis];
-        const float sa = slope(take, before, -1, point, axis) * span,
-                    sb = slope(take, after, 1, point, axis) * span;
-        for (uint32_t f = before + 1; f < after; f++) {
-            const float t = (float)(f - before) / span, u = 1 - t;
-            take->xyz[at(take, f, point)][axis] =
-                a * (1 + 2 * t) * u * u + b * (3 - 2 * t) * t * t + sa * t * u * u - sb * t * t * u;
-        }
-    }
-    for (uint32_t f = before + 1; f < after; f++)
-        take->valid[at(take, f, point)] = FAP_SAMPLE_SPLINE;
-}
-
-static void close_gaps(fap_take *take, uint32_t point, uint32_t longest, fap_clean_report *report)
-{
-    uint32_t last = UINT32_MAX;
+    float before[3] = { 0 };
+    int had = 0;
 
     for (uint32_t f = 0; f < take->frame_count; f++) {
-        if (!take->valid[at(take, f, point)])
-            continue;
-        const uint32_t gap = last == UINT32_MAX ? 0 : f - last - 1;
-        if (gap && gap <= longest) {
-            close_gap(take, last, f, point);
-            report->gaps_closed++;
-            report->samples_filled += gap;
-        } else if (gap) {
-            report->gaps_left++;
-        }
-        last = f;
+        float *v = take->xyz[at(take, f, point)];
+        const float here[3] = { v[0], v[1], v[2] };
+        const float *after = valid_sample(take, (int64_t)f + 1, point);
+        const int has = take->valid[at(take, f, point)] != FAP_SAMPLE_MISSING;
+        for (int axis = 0; axis < 3 && has; axis++)
+            v[axis] = (here[axis] + (had ? before[axis] : 0) + (after ? after[axis] : 0)) /
+                      (float)(1 + had + (after != NULL));
+        memcpy(before, here, sizeof before);
+        had = has;
     }
 }
 
-void fap_take_clean(fap_take *take, const fap_clean_config *cfg, fap_clean_report *report)
+/* --- the account --- */
+
+/* Counts the gaps of a point that are there now. */
+static void count_gaps(const fap_take *take, uint32_t point, fap_clean_point *out)
+{
+    uint32_t run = 0;
+
+    for (uint32_t f = 0; f <= take->frame_count; f++) {
+        if (f < take->frame_count && !take->valid[at(take, f, point)]) {
+            run++;
+            continue;
+        }
+        out->gaps += run > 0;
+        out->longest_gap = run > out->longest_gap ? run : out->longest_gap;
+        run = 0;
+    }
+}
+
+static void sum_up(const fap_take *take, fap_clean_point *points, fap_clean_report *report)
+{
+    for (uint32_t p = 0; p < take->point_count; p++) {
+        fap_clean_point *c = &points[p];
+        uint32_t closed = 0;
+        for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++) {
+            closed += c->gaps_by[kind];
+            report->samples_filled += c->filled[kind];
+        }
+        for (uint32_t f = 0; f < take->frame_count; f++)
+            c->unfilled += !take->valid[at(take, f, p)];
+        report->spikes += c->spikes;
+        report->gaps_closed += closed;
+        report->gaps_left += c->gaps - closed;
+    }
+}
+
+fap_err fap_take_clean(fap_take *take, const fap_clean_config *cfg, fap_clean_report *report,
+                       fap_clean_point *points)
 {
     fap_clean_config defaults;
 
@@ -183,10 +194,20 @@ void fap_take_clean(fap_take *take, const fap_clean_config *cfg, fap_clean_repor
     if (!cfg)
         cfg = &defaults;
     *report = (fap_clean_report){ 0 };
-    const double rate_hz = take->rate_hz > 0 ? take->rate_hz : 60;
+    fap_clean_point *own = points ? NULL : fap_mem_calloc(&take->alloc, take->point_count, sizeof *own);
+    if (!points && !own)
+        return FAP_E_NOMEM;
+    points = points ? points : own;
+    memset(points, 0, take->point_count * sizeof *points);
     for (uint32_t p = 0; p < take->point_count; p++) {
-        if (cfg->spike_mm > 0)
-            report->spikes += drop_spikes(take, p, (float)cfg->spike_mm);
-        close_gaps(take, p, (uint32_t)(cfg->gap_s * rate_hz + 0.5), report);
+        if (cfg->average)
+            average(take, p);
+        else if (cfg->spike_mm > 0)
+            points[p].spikes = drop_spikes(take, p, (float)cfg->spike_mm);
+        count_gaps(take, p, &points[p]);
     }
+    const fap_err err = fill_gaps(take, cfg, points);
+    sum_up(take, points, report);
+    fap_mem_free(&take->alloc, own);
+    return err;
 }

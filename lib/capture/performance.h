@@ -17,6 +17,7 @@ typedef struct performance {
     char *where;    /* FAP_ERROR_TEXT_SIZE bytes */
     fap_take *take; /* cropped, cleaned, at the rate of the FAPs; axes of the file */
     uint32_t frames;
+    fap_clean_point *cleaned; /* [take points] */
 
     /* head.c: where the head is */
     rigid_body body;

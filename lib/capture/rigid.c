@@ -31,13 +31,24 @@ static void rotate(double a[MAX_EIGEN][MAX_EIGEN], double v[MAX_EIGEN][MAX_EIGEN
     }
 }
 
+static double off_diagonal(double a[MAX_EIGEN][MAX_EIGEN], int n)
+{
+    double sum = 0;
+
+    for (int p = 0; p < n; p++)
+        for (int q = p + 1; q < n; q++)
+            sum += fabs(a[p][q]);
+    return sum;
+}
+
 /* @p a becomes diagonal, the columns of @p v its eigenvectors. */
 static void diagonalise(double a[MAX_EIGEN][MAX_EIGEN], double v[MAX_EIGEN][MAX_EIGEN], int n)
 {
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             v[i][j] = i == j;
-    for (int sweep = 0; sweep < MAX_SWEEPS; sweep++)
+    const double enough = 1e-15 * (fabs(a[0][0]) + off_diagonal(a, n) + fabs(a[n - 1][n - 1]));
+    for (int sweep = 0; sweep < MAX_SWEEPS && off_diagonal(a, n) > enough; sweep++)
         for (int p = 0; p < n; p++)
             for (int q = p + 1; q < n; q++)
                 rotate(a, v, n, p, q);

@@ -33,6 +33,11 @@ double bench_encode_x_realtime_openface(void);
 double bench_encode_x_realtime_mediapipe(void);
 double bench_encode_x_realtime_livelink(void);
 
+/* Millimetres off, where so many frames of a marker were hidden and refilled. */
+double bench_gap_fill_error_mm_5(void);
+double bench_gap_fill_error_mm_30(void);
+double bench_gap_fill_error_mm_120(void);
+
 /* Pictures a second of a moving face, and what a frame costs against bare OpenGL; the player's first picture. */
 double bench_offscreen_fps_52k(void);
 double bench_offscreen_fps_default(void);

@@ -6,6 +6,7 @@
 
 static const char faces[] = "../shared/data/faces/ict";
 static const char takes[] = "../shared/data/takes";
+static const char gap_takes[] = "../shared/data/takes/optical_animface";
 static const char held_out[] =
     "RMS, 20 held-out mixes of six shapes, half of them with one the bank lacks; face 190 mm high";
 
@@ -22,6 +23,12 @@ const bench_figure bench_figures[] = {
       "mediapipe/wolfgang_facemesh478_24fps.csv: 478 points at 24 Hz", takes },
     { "encode_x_realtime_livelink", "x", bench_encode_x_realtime_livelink,
       "livelink/alex_rom_3.csv: 61 coefficients at 30 Hz", takes },
+#define X(frames, text)                                                                                      \
+    { "gap_fill_error_mm_" #frames, "mm", bench_gap_fill_error_mm_##frames,                                  \
+      text " of one marker hidden, refilled: mean over 41 markers of two takes at 60 Hz, 4 gaps a marker",   \
+      gap_takes },
+    X(5, "5 frames") X(30, "30 frames") X(120, "120 frames")
+#undef X
     { "offscreen_fps_640x480_52k", "frames/s", bench_offscreen_fps_52k,
       "ICT-FaceKit, 52,220 triangles, every vertex moved, smoothed, read back; at least 40 where two cores "
       "are free",

@@ -20,11 +20,12 @@ extern "C" {
 
 typedef struct fap_capture fap_capture;
 
-/** What closes gaps. */
+/** What closes gaps; fap/studio/clean.h says how. */
 typedef enum fap_fill {
     FAP_FILL_NONE,   /**< nothing: the FAP is masked out there */
-    FAP_FILL_SPLINE, /**< gaps up to 0.2 s by a cubic */
-    FAP_FILL_ALL,    /**< longer ones too: the marker stays with the head and eases to its next place */
+    FAP_FILL_SPLINE, /**< gaps up to 0.2 s by a curve */
+    FAP_FILL_TAKE,   /**< longer ones too, where the take's other markers tell */
+    FAP_FILL_ALL,    /**< the rest by the databank, if there is one, or eased from place to place with the head */
 } fap_fill;
 
 /** Start from fap_capture_config_init(). */
@@ -42,6 +43,7 @@ typedef struct fap_capture_config {
     double smooth_hz; /**< 0: as the rates ask for; > 0: low-pass; < 0: none */
     fap_fill fill;    /**< FAP_FILL_ALL */
     const fap_bank *bank; /**< NULL: the built-in face; the markers are placed on it, kept for the call only */
+    uint8_t average;  /**< 0; 1: Zhu's mean of three frames instead of the search for spikes */
 } fap_capture_config;
 FAP_API void fap_capture_config_init(fap_capture_config *cfg);
 
@@ -158,6 +160,8 @@ FAP_API int fap_capture_marker_on_face(const fap_capture *c, uint32_t point, fap
 FAP_API double fap_capture_face_scale(const fap_capture *c);
 /** Displacement of a point of the take from its place at rest, head motion taken out, head axes, millimetres; 0: not seen. */
 FAP_API int fap_capture_marker_moved(const fap_capture *c, uint32_t frame, uint32_t point, float xyz_mm[3]);
+/** What was done to each point of the take: [report.take_points]; valid as long as @p c. */
+FAP_API const fap_clean_point *fap_capture_clean_points(const fap_capture *c);
 /** Sets @p *c to NULL; accepts NULL. */
 FAP_API void fap_capture_close(fap_capture **c);
 

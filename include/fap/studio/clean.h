@@ -31,17 +31,41 @@ FAP_API const char *fap_sample_name(fap_sample sample);
 typedef struct fap_clean_config {
     size_t struct_size;
     double spike_mm; /**< 3: nothing closer than this to its neighbours' median is a spike; 0: keep spikes */
-    double gap_s;    /**< 0.2: gaps up to this long are closed by a cubic; 0: keep gaps */
+    double
+        gap_s; /**< 0.2: what counts as short: such a gap is always closed, by a curve if nothing is better */
+    uint8_t average;  /**< 0; 1: instead of taking spikes out, the mean of three frames (Zhu 2006, chapter 6) */
+    uint32_t methods; /**< FAP_CLEAN_TAKE; what may close gaps, bits 1 << FAP_SAMPLE_SPLINE ...; 0: keep gaps */
 } fap_clean_config;
+/** Gaps of one point from the point itself; from all that the take tells. */
+#define FAP_CLEAN_SPLINE (1u << FAP_SAMPLE_SPLINE)
+#define FAP_CLEAN_TAKE                                                                                       \
+    (FAP_CLEAN_SPLINE | 1u << FAP_SAMPLE_RIGID | 1u << FAP_SAMPLE_SURFACE | 1u << FAP_SAMPLE_MOTION)
 FAP_API void fap_clean_config_init(fap_clean_config *cfg);
 
-/** What was done, in samples and gaps. */
+/** What was done, in samples and gaps, over all points. */
 typedef struct fap_clean_report {
     uint32_t spikes, gaps_closed, samples_filled, gaps_left;
 } fap_clean_report;
 
-/** Clean in place. @param cfg NULL: defaults. A take without a rate counts as 60 Hz. */
-FAP_API void fap_take_clean(fap_take *take, const fap_clean_config *cfg, fap_clean_report *report);
+/** The same for one point of the take. */
+typedef struct fap_clean_point {
+    uint32_t spikes, gaps, longest_gap; /**< gaps: spikes count as such; longest_gap in frames of the take */
+    uint32_t gaps_by[FAP_SAMPLE_KINDS]; /**< gaps closed, by method */
+    uint32_t filled[FAP_SAMPLE_KINDS];  /**< samples filled, by method */
+    uint32_t unfilled;                  /**< samples still missing */
+    float
+        error_mm; /**< rms error of the fills, as measured where the point was hidden on purpose: the worst of its gaps */
+} fap_clean_point;
+
+/**
+ * Clean in place. Gaps longer than 0.1 s are closed by the method that predicts the point best where it is seen, unless
+ * none is better than a straight line.
+ * @param cfg     NULL: defaults. A take without a rate counts as 60 Hz.
+ * @param points  [point_count], may be NULL
+ * @return FAP_OK, FAP_E_NOMEM (spikes are out, gaps may be open)
+ */
+FAP_API FAP_NODISCARD fap_err fap_take_clean(fap_take *take, const fap_clean_config *cfg,
+                                             fap_clean_report *report, fap_clean_point *points);
 
 /**
  * The same take at another rate, low-passed without shifting it in time. Each unbroken run of a point is
