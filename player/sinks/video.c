@@ -14,7 +14,7 @@
 
 #include "common/file.h"
 #include "common/tool.h"
-#include "player/sinks/child_pipe.h"
+#include "common/child_pipe.h"
 #include "player/sinks/sink.h"
 
 enum { MOST_ARGUMENTS = 64, TEXT_SIZE = 64 };
@@ -146,7 +146,7 @@ static int start_ffmpeg(video_state *s, fault *f)
 
     for (int i = 0; i <= s->count; i++)
         argv[i] = (char *)(uintptr_t)s->argument[i]; /* spawn takes what exec takes, and changes nothing */
-    const int err = child_pipe_start(&s->child, argv);
+    const int err = child_pipe_start(&s->child, argv, CHILD_READS);
     if (err == ENOENT)
         return fault_set(f, EXIT_MISSING,
                          "films need the program ffmpeg; install it (Debian: apt install ffmpeg) or "

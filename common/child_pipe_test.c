@@ -4,12 +4,12 @@
 
 #include <errno.h>
 
-#include "player/sinks/child_pipe.h"
+#include "common/child_pipe.h"
 
 static int start(child_pipe *c, const char *script)
 {
     char *const argv[] = { "sh", "-c", (char *)(uintptr_t)script, NULL };
-    return child_pipe_start(c, argv);
+    return child_pipe_start(c, argv, CHILD_READS);
 }
 
 TEST(child_pipe, a_missing_program_is_named_as_such)
@@ -17,7 +17,7 @@ TEST(child_pipe, a_missing_program_is_named_as_such)
     char *const argv[] = { "no-such-program-anywhere", NULL };
     child_pipe c;
 
-    assert_int_equal(child_pipe_start(&c, argv), ENOENT);
+    assert_int_equal(child_pipe_start(&c, argv, CHILD_READS), ENOENT);
     child_pipe_abandon(&c);
 }
 
@@ -50,4 +50,28 @@ TEST(child_pipe, a_program_that_gives_up_does_not_take_us_along)
     assert_int_equal(err, EPIPE);
     child_pipe_abandon(&c);
     assert_int_equal(c.pid, 0);
+}
+
+TEST(child_pipe, what_a_program_says_can_be_read_to_its_end)
+{
+    char *const argv[] = { "sh", "-c", "printf hello; exit 3", NULL };
+    char said[16];
+    child_pipe c;
+
+    assert_int_equal(child_pipe_start(&c, argv, CHILD_WRITES), 0);
+    assert_int_equal(child_pipe_read(&c, said, sizeof said), 5);
+    assert_memory_equal(said, "hello", 5);
+    assert_int_equal(child_pipe_read(&c, said, sizeof said), 0);
+    assert_int_equal(child_pipe_finish(&c), 3);
+}
+
+TEST(child_pipe, a_program_that_is_not_listened_to_is_no_hang)
+{
+    char *const argv[] = { "sh", "-c", "while :; do echo again; done", NULL };
+    char said[4];
+    child_pipe c;
+
+    assert_int_equal(child_pipe_start(&c, argv, CHILD_WRITES), 0);
+    assert_int_equal(child_pipe_read(&c, said, sizeof said), 4);
+    child_pipe_abandon(&c);
 }

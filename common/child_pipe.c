@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include "common/signals.h"
-#include "player/sinks/child_pipe.h"
+#include "common/child_pipe.h"
 
 extern char **environ;
 
-/* For the handler of signals; 0: none runs. A player has one. */
+/* For the handler of signals; 0: none runs. A tool has one at a time. */
 static _Atomic(pid_t) running;
 
 /* It would go on writing to a file that is about to be removed, or make it again. */
@@ -27,7 +27,7 @@ static void end_child(void)
         waitpid(pid, &status, 0);
 }
 
-/* The child must not inherit our write end: its input would never end. */
+/* The child must not inherit our end: its input would never end. */
 static int open_pipe(int fd[2])
 {
     if (pipe(fd))
@@ -37,9 +37,9 @@ static int open_pipe(int fd[2])
     return 0;
 }
 
-/* SIGPIPE is ours to ignore, not the child's. Its words go where ours go, its output nowhere: stdout may be a
- * report. */
-static int spawn(pid_t *pid, char *const argv[], int input, const sigset_t *mask)
+/* SIGPIPE is ours to ignore, not the child's. Its words go where ours go, its output, unless it is the pipe, nowhere: stdout
+ * may be a report. */
+static int spawn(pid_t *pid, char *const argv[], child_side side, int its_end, const sigset_t *mask)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -52,16 +52,20 @@ static int spawn(pid_t *pid, char *const argv[], int input, const sigset_t *mask
     posix_spawnattr_setsigmask(&attributes, mask);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, its_end, side == CHILD_READS ? STDIN_FILENO : STDOUT_FILENO);
+    if (side == CHILD_READS)
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    else
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     const int err = posix_spawnp(pid, argv[0], &actions, &attributes, argv, environ);
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     return err;
 }
 
-int child_pipe_start(child_pipe *c, char *const argv[])
+int child_pipe_start(child_pipe *c, char *const argv[], child_side side)
 {
+    const int its = side == CHILD_READS ? 0 : 1;
     sigset_t before;
     int fd[2];
 
@@ -72,16 +76,16 @@ int child_pipe_start(child_pipe *c, char *const argv[])
         return err;
     signals_call(end_child);
     signals_hold(&before);
-    err = spawn(&c->pid, argv, fd[0], &before);
+    err = spawn(&c->pid, argv, side, fd[its], &before);
     atomic_store(&running, err ? 0 : c->pid);
     signals_release(&before);
-    close(fd[0]);
+    close(fd[its]);
     if (err) {
-        close(fd[1]);
+        close(fd[!its]);
         c->pid = 0;
         return err;
     }
-    c->fd = fd[1];
+    c->fd = fd[!its];
     return 0;
 }
 
@@ -99,6 +103,24 @@ int child_pipe_write(child_pipe *c, const void *data, size_t size)
         size -= (size_t)n;
     }
     return 0;
+}
+
+long child_pipe_read(child_pipe *c, void *data, size_t size)
+{
+    uint8_t *const to = data;
+    size_t got = 0;
+
+    while (got < size) {
+        const ssize_t n = read(c->fd, to + got, size - got);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return -1;
+        if (!n)
+            break;
+        got += (size_t)n;
+    }
+    return (long)got;
 }
 
 static int wait_for(child_pipe *c)
