@@ -137,7 +137,7 @@ FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildc
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
 ALL_LIBS := $(PLOT_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
 
-$(B)/mirror-film $(B)/mirror-study: $(B)/mirror-%: $(B)/tests/track/main_%.o $(B)/libfap-film.a $(BASE)
+$(B)/mirror-film $(B)/mirror-compare $(B)/mirror-study: $(B)/mirror-%: $(B)/tests/track/main_%.o $(B)/libfap-film.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(STUDIO_LIBS) -lm
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-film.a $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
@@ -190,7 +190,7 @@ setup:             ## install the Debian packages that are missing (scripts/pack
 
 test: setup        ## install what is missing, build, run every test
 	+$(Q)$(MAKE) --no-print-directory config=$(config) check
-check: all face $(B)/unit $(B)/mirror-film $(B)/fapplay-lines $(B)/conformance $(REPLAY) $(B)/examples
+check: all face $(B)/unit $(B)/mirror-film $(B)/mirror-compare $(B)/fapplay-lines $(B)/conformance $(REPLAY) $(B)/examples
 	$(Q)B=$(B) tests/run
 unit: $(B)/unit    ## unit tests alone
 	$(Q)$(B)/unit

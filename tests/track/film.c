@@ -15,6 +15,8 @@
 enum { RULER_A = FILM_DOTS - 2, RULER_B = FILM_DOTS - 1, MAX_SAMPLES = 16 };
 
 static const double pi = 3.14159265358979323846;
+/* Seen so much from the side, a dot is a line, and nobody would click on it. */
+static const double thinnest = 0.3;
 
 /* About as in the paper: 50 dots on the face and lips, and those at the ears for the head. */
 static const char *const dot_name[FILM_DOTS] = {
@@ -24,8 +26,10 @@ static const char *const dot_name[FILM_DOTS] = {
     "2.10", "2.11", "2.12", "2.13", "2.14", "3.7", "3.8",  "3.9",  "3.10",    "3.11",    "3.12",
     "3.13", "3.14", "10.5", "10.6", "9.15", "F1",  "F2",   "F3",   "ruler A", "ruler B",
 };
-/* Neighbours differ. */
-static const uint8_t paint[4][3] = { { 20, 60, 190 }, { 20, 130, 60 }, { 30, 30, 40 }, { 110, 20, 140 } };
+enum { PAINTS = 4 };
+static const uint8_t paint[PAINTS][3] = {
+    { 20, 60, 190 }, { 20, 130, 60 }, { 20, 165, 185 }, { 110, 20, 140 }
+};
 
 typedef struct rng {
     uint32_t state;
@@ -38,6 +42,7 @@ struct film {
     float *position, *normal;
     float (*corner)[3], (*colour)[3]; /* per vertex: camera millimetres, lit colour */
     uint32_t vertex[FILM_DOTS];
+    uint8_t paint[FILM_DOTS]; /* its colour */
     raster canvas;
     fap_mirror_plane mirror[FAP_MIRROR_MAX];
     double glass[FAP_MIRROR_MAX][3], half[FAP_MIRROR_MAX][2][3];
@@ -153,6 +158,35 @@ static int place_dots(film *f)
     return 1;
 }
 
+/* How far the nearest dot of that colour is among the first @count, in the neutral face. */
+static double nearest_of(const film *f, int count, int dot, int colour)
+{
+    const fap_mesh *mesh = fap_bank_mesh(f->bank);
+    double least = INFINITY;
+
+    for (int i = 0; i < count; i++) {
+        double far = 0;
+        for (uint32_t k = 0; k < 3; k++) {
+            const double a = (double)mesh->position[k * mesh->stride + f->vertex[i]],
+                         b = (double)mesh->position[k * mesh->stride + f->vertex[dot]];
+            far += (a - b) * (a - b);
+        }
+        if (f->paint[i] == colour)
+            least = fmin(least, far);
+    }
+    return least;
+}
+
+/* Neighbours differ. */
+static void paint_dots(film *f)
+{
+    for (int i = 0; i < RULER_A; i++)
+        for (int colour = 1; colour < PAINTS && !f->cfg.one_colour; colour++)
+            if (nearest_of(f, i, i, colour) > nearest_of(f, i, i, f->paint[i]))
+                f->paint[i] = (uint8_t)colour;
+    f->paint[RULER_B] = 1;
+}
+
 static int allocate(film *f, const fap_camera *cam)
 {
     const fap_mesh *mesh = fap_bank_mesh(f->bank);
@@ -184,6 +218,8 @@ film *film_open(const film_config *cfg, const fap_bank *bank)
     face.blend = FAP_BLEND_QP;
     if (!place_dots(f) || !allocate(f, &cam) || fap_face_open(&f->face, bank, &face) != FAP_OK)
         film_close(&f);
+    if (f)
+        paint_dots(f);
     return f;
 }
 
@@ -408,8 +444,8 @@ static raster_cover draw_dot(film *f, const fap_mirror_plane *m, int dot, double
         reflect_direction(m, normal);
     }
     if (dot >= RULER_A)
-        return raster_ball(&f->canvas, image, f->cfg.dot_mm / 2, paint[dot % 4]);
-    return raster_disc(&f->canvas, image, normal, f->cfg.dot_mm / 2, 1.2, paint[dot % 4]);
+        return raster_ball(&f->canvas, image, f->cfg.dot_mm / 2, paint[f->paint[dot]]);
+    return raster_disc(&f->canvas, image, normal, f->cfg.dot_mm / 2, 1.2, paint[f->paint[dot]]);
 }
 
 /* What hides: it comes from one side and leaves on the other in the film's middle third. */
@@ -427,6 +463,14 @@ static void draw_hiding(film *f, const fap_mirror_plane *m, double at_s)
     raster_ball(&f->canvas, image, 16, rgb);
 }
 
+/* Pixels of a dot that looks at the camera. */
+static double whole_pixels(const film *f, const film_dot *dot)
+{
+    const double radius = f->canvas.camera.fx_px * f->cfg.dot_mm / 2 / dot->place[2];
+
+    return pi * radius * radius;
+}
+
 /* @share: what one picture adds to how much of a dot is shown. */
 static void draw_view(film *f, int view, double at_s, double share, film_dot *dot)
 {
@@ -437,7 +481,7 @@ static void draw_view(film *f, int view, double at_s, double share, film_dot *do
     draw_hiding(f, m, at_s);
     for (int i = 0; i < FILM_DOTS; i++) {
         const raster_cover cover = draw_dot(f, m, i, at_s);
-        if (dot && cover.pixels)
+        if (dot && cover.pixels > thinnest * whole_pixels(f, &dot[i]))
             dot[i].shown[view] += share * cover.seen / cover.pixels;
     }
 }

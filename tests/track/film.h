@@ -23,6 +23,7 @@ typedef struct film_config {
     double noise;     /* of every channel of every pixel, standard deviation, of 255 */
     int interlaced;   /* the odd rows are half a frame later */
     int hides;        /* a ball passes before the mouth */
+    int one_colour;   /* all dots; else neighbours differ */
     double ruler_mm;  /* from one end to the other */
     double swiftness; /* of all motion; 1: talking, head swaying */
     uint32_t seed;
@@ -35,7 +36,7 @@ void film_config_init(film_config *cfg);
 typedef struct film_dot {
     double place[3]; /* camera millimetres */
     double pixel[FILM_VIEWS][2];
-    double shown[FILM_VIEWS]; /* how much of it is seen: 0 to 1 */
+    double shown[FILM_VIEWS]; /* how much of it is seen, 0 to 1; 0 too when it is seen edge on */
 } film_dot;
 
 typedef struct film film;

@@ -31,8 +31,9 @@ static const struct option long_options[] = {
     { "bank", 1, NULL, 'b' },    { "size", 1, NULL, 's' },       { "fps", 1, NULL, 'f' },
     { "seconds", 1, NULL, 't' }, { "dot", 1, NULL, 'd' },        { "mirrors", 1, NULL, 'm' },
     { "samples", 1, NULL, 'n' }, { "blur", 1, NULL, 'B' },       { "noise", 1, NULL, 'N' },
-    { "hide", 0, NULL, 'h' },    { "interlaced", 0, NULL, 'i' }, { "swift", 1, NULL, 'w' },
-    { "seed", 1, NULL, 'S' },    { "click", 1, NULL, 'c' },      { NULL, 0, NULL, 0 },
+    { "hide", 0, NULL, 'h' },    { "one-colour", 0, NULL, 'o' }, { "interlaced", 0, NULL, 'i' },
+    { "swift", 1, NULL, 'w' },   { "seed", 1, NULL, 'S' },       { "click", 1, NULL, 'c' },
+    { NULL, 0, NULL, 0 },
 };
 
 static int set(options *o, int option, const char *value)
@@ -49,6 +50,7 @@ static int set(options *o, int option, const char *value)
     case 'n': f->samples = atoi(value); return f->samples > 0;
     case 'B': f->shutter = atof(value); return 1;
     case 'N': f->noise = atof(value); return 1;
+    case 'o': f->one_colour = 1; return 1;
     case 'h': f->hides = 1; return 1;
     case 'i': f->interlaced = 1; return 1;
     case 'w': f->swiftness = atof(value); return 1;
@@ -224,7 +226,8 @@ int main(int argc, char **argv)
             stderr,
             "usage: mirror-film [--bank F.fbank] [--size WxH] [--fps R] [--seconds T] [--dot MM] [--mirrors "
             "N] "
-            "[--samples N]\n [--blur SHARE] [--noise SIGMA] [--hide] [--interlaced] [--swift X] [--seed N] "
+            "[--samples N]\n [--blur SHARE] [--noise SIGMA] [--hide] [--one-colour] [--interlaced] [--swift "
+            "X] [--seed N] "
             "[--click PX] OUT\n");
         return 2;
     }
