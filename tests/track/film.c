@@ -16,7 +16,7 @@ enum { RULER_A = FILM_DOTS - 2, RULER_B = FILM_DOTS - 1, MAX_SAMPLES = 16 };
 
 static const double pi = 3.14159265358979323846;
 /* Seen so much from the side, a dot is a line, and nobody would click on it. */
-static const double thinnest = 0.3;
+static const double thinnest = 0.2;
 
 /* About as in the paper: 50 dots on the face and lips, and those at the ears for the head. */
 static const char *const dot_name[FILM_DOTS] = {
