@@ -3,7 +3,7 @@
 #ifndef PLAYER_DRESS_H
 #define PLAYER_DRESS_H
 
-#include "player/fault.h"
+#include "common/fault.h"
 #include "player/render/renderer.h"
 
 typedef struct dress_options {

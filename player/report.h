@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "player/fault.h"
+#include "common/fault.h"
 #include "player/options.h"
 #include "player/window/session.h"
 

@@ -3,7 +3,7 @@
 #ifndef PLAYER_SINKS_EXPORT_LIMIT_H
 #define PLAYER_SINKS_EXPORT_LIMIT_H
 
-#include "player/fault.h"
+#include "common/fault.h"
 #include "player/sinks/sink.h"
 
 /* 1: @size bytes are not too many. 0: they are, and @f says what would be fewer. */

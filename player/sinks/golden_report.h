@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "player/fault.h"
+#include "common/fault.h"
 #include "player/render/image.h"
 
 enum { GOLDEN_PATH_SIZE = 4096 };

@@ -3,7 +3,7 @@
 #ifndef PLAYER_SINKS_PICTURE_FILE_H
 #define PLAYER_SINKS_PICTURE_FILE_H
 
-#include "player/fault.h"
+#include "common/fault.h"
 #include "player/render/image.h"
 
 /* @path "-": standard output. @level as in image_write_png(). */

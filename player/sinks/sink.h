@@ -10,7 +10,7 @@
 #include <fap/bank.h>
 #include <fap/face.h>
 
-#include "player/fault.h"
+#include "common/fault.h"
 #include "player/render/image.h"
 
 struct csv_kind;

@@ -7,6 +7,8 @@
 #ifndef FAP_STUDIO_MIRROR_H
 #define FAP_STUDIO_MIRROR_H
 
+#include <stddef.h>
+
 #include <fap/api.h>
 #include <fap/error.h>
 
@@ -23,6 +25,13 @@ typedef struct fap_camera {
 
 /** A camera nobody has measured: straight lines, square pixels, centred, @p view_deg across the picture's width. */
 FAP_API void fap_camera_guess(fap_camera *cam, int width_px, int height_px, double view_deg);
+/**
+ * A camera from JSON: an object with fx, fy, cx, cy, width, height in pixels and k, up to five numbers; or what OpenCV's
+ * calibration writes as "camera_matrix" and "distortion_coefficients". Names that are not known are passed over.
+ * @param where  FAP_ERROR_TEXT_SIZE bytes: what is missing
+ * @return FAP_OK; FAP_E_SYNTAX no JSON; FAP_E_DATA a number is missing or makes no sense
+ */
+FAP_API FAP_NODISCARD fap_err fap_camera_read(fap_camera *cam, const void *data, size_t size, char *where);
 /** The same camera for pictures of another size. */
 FAP_API void fap_camera_resize(fap_camera *cam, int width_px, int height_px);
 /** x / z and y / z of what appears at a pixel. */

@@ -95,6 +95,13 @@ typedef enum fap_c3d_processor { FAP_C3D_INTEL = 84, FAP_C3D_DEC = 85, FAP_C3D_S
  */
 FAP_API FAP_NODISCARD fap_err fap_take_write_c3d(const fap_take *take, const fap_writer *out,
                                                  fap_c3d_processor processor, int integer);
+/**
+ * Write a take as TRC, a table that people can read: millimetres, an empty cell where a point is missing.
+ * @param title  what stands in the first line: the file's name
+ * @return FAP_OK, FAP_E_ARG (the take has no rate), FAP_E_IO
+ */
+FAP_API FAP_NODISCARD fap_err fap_take_write_trc(const fap_take *take, const char *title,
+                                                 const fap_writer *out);
 
 #ifdef __cplusplus
 }

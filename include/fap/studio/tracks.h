@@ -16,6 +16,32 @@ extern "C" {
 
 #define FAP_TRACKS_VIEWS (1 + FAP_MIRROR_MAX)
 
+/** A dot of the first picture, in every view it was seen in. */
+typedef struct fap_track_dot {
+    char name[FAP_TAKE_NAME_SIZE];
+    uint8_t has[FAP_TRACKS_VIEWS]; /**< directly, in the first mirror, in the second */
+    double at_px[FAP_TRACKS_VIEWS][2];
+} fap_track_dot;
+
+/** Where to begin. */
+typedef struct fap_track_dots {
+    int count, mirrors;
+    fap_track_dot *dot; /**< [count], names are unique */
+    fap_allocator alloc;
+} fap_track_dots;
+
+/**
+ * Dots from a table: label, x, y, and two columns more for every mirror; empty where a dot is not seen. A first row that is not
+ * numbers is a heading.
+ * @param where  FAP_ERROR_TEXT_SIZE bytes: the line and what is wrong with it
+ * @return FAP_OK; FAP_E_SYNTAX; FAP_E_DATA a label twice, or a dot that is seen nowhere; FAP_E_NOT_FOUND no dot; FAP_E_LIMIT more than
+ * FAP_TRACK_MAX_POINTS in all views; FAP_E_NOMEM. Nothing is to be freed on error.
+ */
+FAP_API FAP_NODISCARD fap_err fap_track_dots_read(fap_track_dots *dots, const void *data, size_t size,
+                                                  const fap_allocator *alloc, char *where);
+/** Frees what they hold. */
+FAP_API void fap_track_dots_close(fap_track_dots *dots);
+
 /** Where labels appeared. Borrowed. */
 typedef struct fap_tracks {
     int labels, mirrors; /**< mirrors 0: the video is all there is, places are flat */

@@ -3,8 +3,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "common/fault.h"
 #include "common/tool.h"
-#include "player/fault.h"
 
 int fault_set(fault *f, int exit_status, const char *fmt, ...)
 {

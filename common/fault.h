@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* What went wrong in the player: words for people, and the exit code they come with. */
-#ifndef PLAYER_FAULT_H
-#define PLAYER_FAULT_H
+/* What went wrong in a tool: words for people, and the exit code they come with. */
+#ifndef COMMON_FAULT_H
+#define COMMON_FAULT_H
 
 typedef struct fault {
     int exit_status; /* EXIT_OK: nothing yet */
