@@ -76,6 +76,8 @@ void face_place_markers(performance *p);
 void face_close(performance *p);
 /* Feature points without a marker of their own, from those around them. */
 fap_err points_retarget(performance *p);
+/* Inner lips from outer ones; after points_retarget(). */
+void lips_derive(performance *p);
 /* The mean of a feature point's markers at rest, take axes; 0 when one of them has no place. */
 int neutral_point(const performance *p, int feature_point, double out[3]);
 

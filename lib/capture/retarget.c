@@ -286,5 +286,7 @@ fap_err points_retarget(performance *p)
     skin_close(p, &s);
     if (!ok)
         return FAP_E_NOMEM;
+    if (p->face.scale > 0)
+        lips_derive(p);
     return FAP_OK;
 }
