@@ -38,6 +38,11 @@ double bench_gap_fill_error_mm_5(void);
 double bench_gap_fill_error_mm_30(void);
 double bench_gap_fill_error_mm_120(void);
 
+/* Markers to FAPs to the default face to markers: along axes that have a FAP, along the others, and what coding adds. */
+double bench_reencode_error_mm(void);
+double bench_reencode_axes_mm(void);
+double bench_reencode_quant_mm(void);
+
 /* Pictures a second of a moving face, and what a frame costs against bare OpenGL; the player's first picture. */
 double bench_offscreen_fps_52k(void);
 double bench_offscreen_fps_default(void);

@@ -29,6 +29,15 @@ const bench_figure bench_figures[] = {
       gap_takes },
     X(5, "5 frames") X(30, "30 frames") X(120, "120 frames")
 #undef X
+        { "reencode_error_mm", "mm", bench_reencode_error_mm,
+          "real takes to FAPs, played by the default face, whose skin is measured where the markers are "
+          "glued: mean over markers "
+          "of feature points, frames and axes that have a FAP. Below by take",
+          takes },
+    { "reencode_axes_mm", "mm", bench_reencode_axes_mm,
+      "the same along the axes for which there is no FAP: what FAPs cannot say", takes },
+    { "reencode_quant_mm", "mm", bench_reencode_quant_mm,
+      "what coding adds along the axes that have a FAP: the farthest, fap_quant 1; at most 0.2", takes },
     { "offscreen_fps_640x480_52k", "frames/s", bench_offscreen_fps_52k,
       "ICT-FaceKit, 52,220 triangles, every vertex moved, smoothed, read back; at least 40 where two cores "
       "are free",
