@@ -20,6 +20,7 @@ static const char help[] =
     "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; -o OUT.csv: ARKit's "
     "coefficients\n"
     "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
+    "       fapenc track VIDEO --init POINTS.csv -o TAKE.trc   dots in a video to a take; fapenc track --help\n"
     "\n"
     "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
     "NAME_y, NAME_z\n"

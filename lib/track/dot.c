@@ -165,17 +165,63 @@ static void measure_absence(dot *d)
     d->absent = fmaxf(d->absent, 3 * 8 * 8);
 }
 
+/* How much the spot at @at differs from the ring around it where they differ least: at an edge that is nothing. */
+static double stands_out(const fap_picture *p, const double at[2], double radius)
+{
+    enum { SAMPLES = 12 };
+    float spot[3], around[3], least = INFINITY;
+
+    mean_of_ring(p, at, 0.4 * radius, spot);
+    for (int i = 0; i < SAMPLES; i++) {
+        const double turn = i * (2 * 3.14159265358979323846 / SAMPLES), ring = 1.6 * radius + 1;
+        sample(p, at[0] + ring * cos(turn), at[1] + ring * sin(turn), around);
+        least = fminf(least, distance2(spot, around));
+    }
+    return (double)least;
+}
+
+/* The spot near @at that stands out most: people click beside what is three pixels wide. */
+static void stand_on_spot(const fap_picture *p, double radius, double at[2])
+{
+    const double reach = 1.5, step = 0.5, from[2] = { at[0], at[1] };
+    double best = 0;
+
+    for (double dy = -reach; dy <= reach; dy += step)
+        for (double dx = -reach; dx <= reach; dx += step) {
+            const double to[2] = { from[0] + dx, from[1] + dy };
+            const double contrast = stands_out(p, to, radius) / (1 + 1.0 * (dx * dx + dy * dy));
+            if (contrast <= best)
+                continue;
+            best = contrast;
+            memcpy(at, to, sizeof to);
+        }
+}
+
+/* Whoever showed the dot showed its inside: what lies farther away is something else of that colour. */
+static double middle_near(const dot *d, const fap_picture *p, double at[2])
+{
+    double to[2] = { at[0], at[1] };
+    const double area = middle(d, p, 1.5 * d->radius + 1, to);
+
+    if (hypot(to[0] - at[0], to[1] - at[1]) > d->radius + 0.5)
+        return area;
+    at[0] = to[0];
+    at[1] = to[1];
+    return area;
+}
+
 void dot_learn(dot *d, const fap_picture *p, double at[2], double radius)
 {
+    stand_on_spot(p, radius > 0 ? radius : 1.5, at);
     mean_of_ring(p, at, 0.7, d->colour);
     find_skin(d, p, at, fmax(2, 1.6 * radius), radius > 0 ? 2.2 * radius + 1 : DOT_MAX_RADIUS);
     d->radius = radius > 0 ? fmin(radius, DOT_MAX_RADIUS) : find_radius(d, p, at);
-    middle(d, p, 1.5 * d->radius + 1, at);
+    middle_near(d, p, at);
     mean_of_ring(p, at, 0.4 * d->radius, d->colour);
     find_skin(d, p, at, 1.6 * d->radius + 1, 2 * d->radius + 2);
     if (!(radius > 0))
         d->radius = find_radius(d, p, at);
-    d->area = middle(d, p, 1.5 * d->radius + 1, at);
+    d->area = middle_near(d, p, at);
     d->half = clamp((int)ceil(1.5 * d->radius + 1), 2, DOT_MAX_HALF);
     take_template(d, p, at);
     make_weights(d);
@@ -215,45 +261,60 @@ static float cost_at(const dot *d, const fap_picture *p, int cx, int cy, float b
     return sum;
 }
 
-/* Every @p step pixels in a square of @p reach around (x, y), the middle first: of equals the nearest wins. */
-static float search_square(const dot *d, const fap_picture *p, int reach, int step, int *x, int *y,
-                           float best)
-{
-    const int cx = *x, cy = *y;
+/* What is looked for and where it should be. */
+typedef struct quest {
+    const dot *d;
+    const fap_picture *p;
+    double from[2];
+    float pull;
+    int x, y; /* the best place so far */
+    float best;
+} quest;
 
-    for (int dy = -reach; dy <= reach; dy += step)
-        for (int dx = -reach; dx <= reach; dx += step) {
-            const int px = cx + dx, py = cy + dy;
-            if (px < 0 || py < 0 || px >= p->width_px || py >= p->height_px)
-                continue;
-            const float c = cost_at(d, p, px, py, best);
-            if (c >= best)
-                continue;
-            best = c;
-            *x = px;
-            *y = py;
-        }
-    return best;
+/* Costs no less than its distance does: what lies too far need not be looked at. */
+static void look_at(quest *q, int x, int y)
+{
+    const float dx = (float)(x - q->from[0]), dy = (float)(y - q->from[1]),
+                far = q->pull * (dx * dx + dy * dy);
+
+    if (x < 0 || y < 0 || x >= q->p->width_px || y >= q->p->height_px || far >= q->best)
+        return;
+    const float cost = far + cost_at(q->d, q->p, x, y, q->best - far);
+    if (cost >= q->best)
+        return;
+    q->best = cost;
+    q->x = x;
+    q->y = y;
 }
 
-double dot_find(const dot *d, const fap_picture *p, double search, double at[2])
+/* Every @step pixels in a square of @reach around the best place. */
+static void search_square(quest *q, int reach, int step)
+{
+    const int cx = q->x, cy = q->y;
+
+    for (int dy = -reach; dy <= reach; dy += step)
+        for (int dx = -reach; dx <= reach; dx += step)
+            look_at(q, cx + dx, cy + dy);
+}
+
+double dot_find(const dot *d, const fap_picture *p, double search, double pull, double at[2])
 {
     const int step = d->radius >= 3 ? 2 : 1;
     const int reach = (int)ceil(search) / step * step + step;
-    int x = (int)lround(at[0]), y = (int)lround(at[1]);
-    float best = INFINITY;
+    quest q = { d,       p, { at[0], at[1] }, (float)pull * d->absent, (int)lround(at[0]), (int)lround(at[1]),
+                INFINITY };
 
-    if (x >= 0 && y >= 0 && x < p->width_px && y < p->height_px)
-        best = cost_at(d, p, x, y, best);
-    best = search_square(d, p, reach, step, &x, &y, best);
+    look_at(&q, q.x, q.y);
+    search_square(&q, reach, step);
     if (step > 1)
-        best = search_square(d, p, 1, 1, &x, &y, best);
-    if (!(best < INFINITY))
-        return best;
-    at[0] = x;
-    at[1] = y;
+        search_square(&q, 1, 1);
+    if (!(q.best < INFINITY))
+        return (double)q.best;
+    at[0] = q.x;
+    at[1] = q.y;
+    const double looks = (double)cost_at(d, p, q.x, q.y, INFINITY);
     /* The middle of what sticks out from behind something is not the dot's. */
     const double area = middle(d, p, 1.5 * d->radius + 1, at);
     const double hidden = d->area > 0 ? fmax(0, 0.9 - area / d->area) : 0;
-    return best / d->absent + hidden;
+    return looks / d->absent + hidden;
 }

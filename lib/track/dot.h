@@ -26,9 +26,9 @@ void dot_learn(dot *d, const fap_picture *picture, double at[2], double radius);
 /* Small changes of light are followed, where the dot is surely seen. */
 void dot_follow(dot *d, const fap_picture *picture, const double at[2]);
 /*
- * The best place within @search pixels of @at, which becomes that place. Returns its cost: 0 the same, 1 as bad as skin, INFINITY
- * nowhere inside the picture.
+ * The best place within @search pixels of @at, which becomes that place. Of places that look alike the nearer one is better: @pull is what a
+ * square pixel of distance costs. Returns the cost of its looks alone: 0 the same, 1 as bad as skin, INFINITY nowhere inside the picture.
  */
-double dot_find(const dot *d, const fap_picture *picture, double search, double at[2]);
+double dot_find(const dot *d, const fap_picture *picture, double search, double pull, double at[2]);
 
 #endif

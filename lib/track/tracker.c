@@ -4,6 +4,7 @@
  * filter. What is added: a hidden dot is carried by its neighbours' motion, and one place has one dot.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <fap/studio/track.h>
@@ -13,6 +14,7 @@
 #include "track/kalman.h"
 
 enum { NEIGHBOURS = 4 };
+static const double likely_cost = 0.05;
 
 typedef struct follower {
     dot look;
@@ -80,12 +82,32 @@ static void tell(fap_tracker *t, int i, double cost)
                                                                        : FAP_TRACK_LOST };
 }
 
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double middle_radius(const fap_tracker *t)
+{
+    double radius[FAP_TRACK_MAX_POINTS];
+
+    for (int i = 0; i < t->count; i++)
+        radius[i] = t->dot[i].look.radius;
+    qsort(radius, (size_t)t->count, sizeof *radius, by_size);
+    return radius[t->count / 2];
+}
+
+/* Dots of one face are of one size: one that seems to be much larger has something of its colour beside it. */
 static void learn(fap_tracker *t, const fap_picture *first, const double (*at)[2])
 {
+    for (int i = 0; i < t->count; i++)
+        dot_learn(&t->dot[i].look, first, (double[2]){ at[i][0], at[i][1] }, t->cfg.radius_px);
+    const double usual = middle_radius(t);
     for (int i = 0; i < t->count; i++) {
         follower *f = &t->dot[i];
         double middle[2] = { at[i][0], at[i][1] };
-        dot_learn(&f->look, first, middle, t->cfg.radius_px);
+        dot_learn(&f->look, first, middle, f->look.radius > 1.4 * usual ? usual : t->cfg.radius_px);
         kalman_start(&f->filter, middle, t->cfg.base_variance_px2);
         tell(t, i, 0);
     }
@@ -152,12 +174,18 @@ static double search_of(const fap_tracker *t, const follower *f)
     return fmin(slack, t->cfg.search_px);
 }
 
+/* One standard deviation costs as much as a slight difference in looks. */
+static double pull_of(const fap_tracker *t, const follower *f)
+{
+    return likely_cost / (f->filter.pp + t->cfg.base_variance_px2);
+}
+
 static void look_for(fap_tracker *t, int i, const fap_picture *picture)
 {
     follower *f = &t->dot[i];
 
     memcpy(f->found, f->filter.p, sizeof f->found);
-    t->point[i].cost = dot_find(&f->look, picture, search_of(t, f), f->found);
+    t->point[i].cost = dot_find(&f->look, picture, search_of(t, f), pull_of(t, f), f->found);
 }
 
 static int is_seen(const fap_tracker *t, int i)

@@ -94,8 +94,9 @@ static fap_err find_mirrors(placing *p)
     if (p->t->mirrors == 2 && !fap_mirror_join(m, p->views, count))
         return fail(p, FAP_E_DATA,
                     "no point is seen directly and in both mirrors: their distances cannot be compared");
-    if (p->t->mirrors)
-        fap_mirror_refine(m, p->t->mirrors, p->views, count, p->tolerance);
+    /* Ever more by those that agree: a dot wrongly followed in one view is wrong in many pictures. */
+    for (double tolerance = p->tolerance; p->t->mirrors && tolerance > 0.05 * p->tolerance; tolerance /= 4)
+        fap_mirror_refine(m, p->t->mirrors, p->views, count, tolerance);
     return FAP_OK;
 }
 
@@ -220,12 +221,117 @@ static fap_err find_scale(placing *p, double *scale)
     return FAP_OK;
 }
 
-/* --- the take --- */
+/* --- strays --- */
 
 static int is_ruler(const fap_tracks_config *cfg, int label)
 {
     return label == cfg->ruler[0] || label == cfg->ruler[1];
 }
+
+/*
+ * A dot that was mistaken for another for long is smooth, and two views of it may well agree; but skin does not stretch without end, so
+ * what is much farther from most of its neighbours than it usually is, or much nearer, is somewhere else.
+ */
+enum { NEIGHBOURS = 5, LOOKED_AT = 64 };
+static const double most_stretch_mm = 6;
+
+static double gap(const placing *p, size_t frame, int one, int other)
+{
+    const size_t row = frame * (size_t)p->t->labels;
+    double way[3];
+
+    memcpy(way, p->place[row + (size_t)one], sizeof way);
+    add_scaled3(way, p->place[row + (size_t)other], -1);
+    return sqrt(dot3(way, way));
+}
+
+static int both_placed(const placing *p, size_t frame, int one, int other)
+{
+    const uint8_t *row = p->placed + frame * (size_t)p->t->labels;
+
+    return row[one] && row[other];
+}
+
+/* The middle one of the distances in pictures all over the take; INFINITY: they are hardly ever placed together. */
+static double usual_gap(const placing *p, int one, int other)
+{
+    const size_t step = p->t->frames / LOOKED_AT + 1;
+    double length[LOOKED_AT + 1];
+    size_t found = 0;
+
+    for (size_t f = 0; f < p->t->frames && found <= LOOKED_AT; f += step)
+        if (both_placed(p, f, one, other))
+            length[found++] = gap(p, f, one, other);
+    qsort(length, found, sizeof *length, by_size);
+    return found > 2 ? length[found / 2] : INFINITY;
+}
+
+typedef struct neighbour {
+    int label;
+    double gap;
+} neighbour;
+
+static int find_neighbours(const placing *p, int label, neighbour found[NEIGHBOURS])
+{
+    int count = 0;
+
+    for (int other = 0; other < p->t->labels; other++) {
+        const double usual =
+            other == label || is_ruler(p->cfg, other) ? INFINITY : usual_gap(p, label, other);
+        int at = count < NEIGHBOURS ? count : NEIGHBOURS - 1;
+        if (!(usual < INFINITY) || (count == NEIGHBOURS && usual >= found[at].gap))
+            continue;
+        for (; at > 0 && usual < found[at - 1].gap; at--)
+            found[at] = found[at - 1];
+        found[at] = (neighbour){ other, usual };
+        count += count < NEIGHBOURS;
+    }
+    return count;
+}
+
+/* By how much its neighbours' distances have changed, without the one that changed most: that neighbour may be the stray. */
+static int is_stray(const placing *p, size_t frame, int label, const neighbour *near, int count, double scale)
+{
+    double changed = 0, most = 0, usual = 0;
+    int asked = 0;
+
+    for (int i = 0; i < count; i++) {
+        if (!both_placed(p, frame, label, near[i].label))
+            continue;
+        const double by = scale * (gap(p, frame, label, near[i].label) - near[i].gap);
+        changed += by * by;
+        most = fmax(most, by * by);
+        usual += scale * near[i].gap;
+        asked++;
+    }
+    return asked > 2 && sqrt((changed - most) / (asked - 1)) > most_stretch_mm + 0.05 * usual / asked;
+}
+
+/* Marked first and dropped later: where one is a stray, its neighbours are not to be judged by whoever is left. */
+static void drop_strays(placing *p, double scale)
+{
+    enum { STRAY = 2 };
+    const size_t labels = (size_t)p->t->labels;
+    neighbour near[NEIGHBOURS];
+
+    for (int label = 0; label < p->t->labels; label++) {
+        const int count = is_ruler(p->cfg, label) ? 0 : find_neighbours(p, label, near);
+        for (size_t f = 0; count && f < p->t->frames; f++) {
+            uint8_t *placed = &p->placed[f * labels + (size_t)label];
+            if (*placed && is_stray(p, f, label, near, count, scale))
+                *placed = STRAY;
+        }
+    }
+    for (size_t at = 0; at < p->t->frames * labels; at++) {
+        if (p->placed[at] != STRAY)
+            continue;
+        p->placed[at] = 0;
+        p->label[at % labels].placed--;
+        p->label[at % labels].strays++;
+    }
+}
+
+/* --- the take --- */
 
 /* From the camera's axes to the face's: it looks at the lens. */
 static void put(fap_take *take, uint32_t frame, uint32_t point, const double place[3], double scale, int flat)
@@ -306,7 +412,11 @@ static fap_err place(placing *p, fap_take **take)
         return err;
     locate_all(p, p->label);
     err = find_scale(p, &scale);
-    return err == FAP_OK ? make_take(p, scale, take) : err;
+    if (err != FAP_OK)
+        return err;
+    if (p->t->mirrors)
+        drop_strays(p, scale);
+    return make_take(p, scale, take);
 }
 
 static int is_valid(const fap_tracks *t, const fap_tracks_config *cfg)

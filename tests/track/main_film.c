@@ -137,9 +137,24 @@ static int shoot(const options *o, film *f, fap_take *take, FILE *out)
 
 /* --- what is known --- */
 
+/* Half hidden, a dot would not be clicked on. */
+static int can_be_clicked(const film_dot *dot, int view)
+{
+    return dot->shown[view] > 0.6;
+}
+
+static int is_seen(const options *o, const film_dot *dot)
+{
+    int seen = 0;
+
+    for (int view = 0; view <= o->film.mirrors; view++)
+        seen += can_be_clicked(dot, view);
+    return seen > 0;
+}
+
 static void put_cell(const film_dot *dot, int view, double aside_px, FILE *out)
 {
-    if (dot->shown[view] > 0.6)
+    if (can_be_clicked(dot, view))
         fprintf(out, ",%.2f,%.2f", dot->pixel[view][0] + aside_px, dot->pixel[view][1] - aside_px / 2);
     else
         fputs(",,", out);
@@ -152,6 +167,8 @@ static void put_points(const options *o, const film_dot *dot, FILE *out)
         fprintf(out, ",mirror%d_x,mirror%d_y", m, m);
     fputs("\n", out);
     for (int i = 0; i < FILM_DOTS; i++) {
+        if (!is_seen(o, &dot[i]))
+            continue;
         fputs(film_dot_name(i), out);
         for (int view = 0; view <= o->film.mirrors; view++)
             put_cell(&dot[i], view, ((i + view) % 3 - 1) * o->click_px, out);

@@ -66,6 +66,7 @@ FAP_API void fap_tracks_config_init(fap_tracks_config *cfg);
 
 typedef struct fap_tracks_label {
     uint32_t seen, placed; /**< frames with a direct view; with a place */
+    uint32_t strays;       /**< frames whose place was dropped: skin does not stretch so */
     double rms_px;         /**< of its pictures against those of its places */
 } fap_tracks_label;
 
