@@ -33,6 +33,12 @@ double bench_encode_x_realtime_openface(void);
 double bench_encode_x_realtime_mediapipe(void);
 double bench_encode_x_realtime_livelink(void);
 
+/* Dots in films of a face between mirrors: places against the truth, and pictures a second. */
+double bench_mirror_rms_mm(void);
+double bench_mirror_max_mm(void);
+double bench_mirror_placed_share(void);
+double bench_track_fps(void);
+
 /* Millimetres off, where so many frames of a marker were hidden and refilled. */
 double bench_gap_fill_error_mm_5(void);
 double bench_gap_fill_error_mm_30(void);

@@ -138,7 +138,8 @@ static void put_key(FILE *out)
 
 static void put_picture(FILE *out, results all)
 {
-    fputs("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 980 450\" font-family=\"sans-serif\" "
+    fputs("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"980\" height=\"450\" viewBox=\"0 0 980 450\" "
+          "font-family=\"sans-serif\" "
           "font-size=\"13\">\n"
           "<rect width=\"980\" height=\"450\" fill=\"#fff\"/>\n",
           out);
