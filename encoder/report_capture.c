@@ -189,6 +189,9 @@ static void json_markers(json *j, const run_report *rep, const fap_capture_repor
     json_open(j, "markers", '{');
     json_string(j, "set", r->markers.set);
     json_integer(j, "known", r->markers.used);
+    json_integer(j, "fitted", r->fitted);
+    if (r->fitted)
+        json_number(j, "fit_mm", r->fit_mm);
     json_open(j, "points", '{');
     for (int i = 0; i < FAP_POINT_COUNT; i++) {
         const fap_marker_source *s = &r->markers.point[i];

@@ -172,8 +172,10 @@ static fap_err map_markers(performance *p)
 {
     const fap_capture_config *cfg = p->cfg;
     fap_markers *map = &p->report->markers;
-    const fap_err err = fap_markers_map(map, p->take, cfg->markers, cfg->markers_size, p->where);
+    fap_err err = fap_markers_map(map, p->take, cfg->markers, cfg->markers_size, p->where);
 
+    if (err == FAP_E_NOT_FOUND)
+        err = unlabelled_map(p);
     if (err != FAP_OK || !cfg->rigid)
         return err;
     return fap_markers_set_rigid(map, p->take, cfg->rigid, p->where);

@@ -200,6 +200,29 @@ static uint32_t count_hits(const char *set, const fap_take *take)
     return hits;
 }
 
+static int is_first_of_label(int row)
+{
+    for (int r = 0; r < row; r++)
+        if (!strcmp(rows[r].set, rows[row].set) && !strcmp(rows[r].label, rows[row].label))
+            return 0;
+    return 1;
+}
+
+/* Numbers are anybody's names: they are landmarks only where all of a set's are there. */
+static int is_complete(const char *set, uint32_t hits)
+{
+    uint32_t labels = 0;
+
+    for (int r = 0; r < ROW_COUNT; r++) {
+        if (strcmp(rows[r].set, set) != 0)
+            continue;
+        if (rows[r].label[0] < '0' || rows[r].label[0] > '9')
+            return 1;
+        labels += is_first_of_label(r) != 0;
+    }
+    return 10 * hits >= 9 * labels;
+}
+
 /* Fewer hits than this are chance: many laboratories have an "M1". */
 static const char *best_set(const fap_take *take)
 {
@@ -211,7 +234,7 @@ static const char *best_set(const fap_take *take)
         if (r && !strcmp(rows[r].set, rows[r - 1].set))
             continue;
         const uint32_t hits = count_hits(rows[r].set, take);
-        if (hits > most) {
+        if (hits > most && is_complete(rows[r].set, hits)) {
             most = hits;
             best = rows[r].set;
         }

@@ -50,6 +50,8 @@ fap_err performance_fail(performance *p, fap_err err, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
 void performance_note(performance *p, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
+/* Markers without a name that means something, by where they lie; roles that are given stay. */
+fap_err unlabelled_map(performance *p);
 /* Which markers are rigid, and the head's pose in every frame. */
 fap_err head_find(performance *p);
 /* A point of the take with the head's motion taken out, as if it were posed at @p rest. 0: not seen. */

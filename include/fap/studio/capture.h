@@ -112,6 +112,9 @@ typedef struct fap_capture_report {
     double fapu_scale;         /**< measured over typical; 1 where nothing could be measured */
     fap_capture_fap fap[FAP_COUNT + 1];
     fap_markers markers;
+    uint32_t fitted;       /**< points of the take mapped by where they lie, as no label is known; 0: by labels */
+    uint32_t fitted_usual; /**< of these, on feature points that markers usually are put on */
+    double fit_mm;         /**< how far they are from there on the bank's face, its features bent to fit: RMS */
     uint32_t note_count;
     char note[FAP_TAKE_MAX_NOTES][FAP_TAKE_NOTE_SIZE];
 } fap_capture_report;
