@@ -38,10 +38,10 @@ const bench_figure bench_figures[] = {
       "the same along the axes for which there is no FAP: what FAPs cannot say", takes },
     { "reencode_quant_mm", "mm", bench_reencode_quant_mm,
       "what coding adds along the axes that have a FAP: the farthest, fap_quant 1; at most 0.2", takes },
-        { "mirror_rms_mm", "mm", bench_mirror_rms_mm,
-          "54 dots of 3 mm, two mirrors, 640x480, noise and a hand before the mouth, against the truth; the "
-          "paper's is 1.95",
-          "" },
+    { "mirror_rms_mm", "mm", bench_mirror_rms_mm,
+      "54 dots of 3 mm, two mirrors, 640x480, noise and a hand before the mouth, against the truth; the "
+      "paper's is 1.95",
+      "" },
     { "mirror_max_mm", "mm", bench_mirror_max_mm, "the worst of all dots and pictures; the paper's is 2.94",
       "" },
     { "mirror_placed_share", "", bench_mirror_placed_share,
