@@ -27,6 +27,9 @@ void canvas_close(canvas **c);
 /* What was drawn, as a file; once. */
 fap_err canvas_save(canvas *c, const fap_writer *out);
 
+/* A PNG's rows from the top, 4 bytes a pixel: blue, green, red, and one that says nothing; no gaps between rows. Valid until more is drawn. */
+const uint8_t *canvas_pixels(canvas *c);
+
 /* 0xRRGGBB for everything that follows; @alpha 1 covers. */
 void canvas_colour(canvas *c, uint32_t rgb, double alpha);
 void canvas_box(canvas *c, double x, double y, double width, double height);

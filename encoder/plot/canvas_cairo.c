@@ -112,6 +112,13 @@ fap_err canvas_save(canvas *c, const fap_writer *out)
     return sink.write(sink.user, c->svg, c->used) ? FAP_E_IO : FAP_OK;
 }
 
+/* Four bytes a pixel need no filling, so rows touch. */
+const uint8_t *canvas_pixels(canvas *c)
+{
+    cairo_surface_flush(c->surface);
+    return cairo_image_surface_get_data(c->surface);
+}
+
 /* --- drawing --- */
 
 void canvas_colour(canvas *c, uint32_t rgb, double alpha)

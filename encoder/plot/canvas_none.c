@@ -29,6 +29,12 @@ fap_err canvas_save(canvas *c, const fap_writer *out)
     return FAP_E_UNSUPPORTED;
 }
 
+const uint8_t *canvas_pixels(canvas *c)
+{
+    (void)c;
+    return NULL;
+}
+
 void canvas_colour(canvas *c, uint32_t rgb, double alpha)
 {
     (void)c, (void)rgb, (void)alpha;

@@ -8,6 +8,7 @@
 
 #include "common/file.h"
 #include "common/tool.h"
+#include "encoder/track/pick_window.h"
 #include "encoder/track/track.h"
 #include "encoder/track/track_report.h"
 
@@ -30,9 +31,15 @@ static int bad_input(const char *path, fap_err err, const char *where, fault *f)
     return fault_set(f, EXIT_DATA, "%s: %s", path, *where ? where : fap_strerror(err));
 }
 
+/* Picked ones have been written by then. */
+static const char *dots_path(const track_options *opt)
+{
+    return opt->init_path ? opt->init_path : opt->pick_path;
+}
+
 static int read_dots(track_work *w, fault *f)
 {
-    const char *path = w->opt->init_path;
+    const char *path = dots_path(w->opt);
     char where[FAP_ERROR_TEXT_SIZE];
     uint8_t *data;
     size_t size;
@@ -75,10 +82,50 @@ static int find_ruler(track_work *w, fault *f)
         const char *name = w->opt->ruler[end];
         w->ruler[end] = *name ? find_dot(&w->dots, name) : -1;
         if (*name && w->ruler[end] < 0)
-            return fault_set(f, EXIT_DATA, "--ruler: there is no \"%s\" in %s", name, w->opt->init_path);
+            return fault_set(f, EXIT_DATA, "--ruler: there is no \"%s\" in %s", name, dots_path(w->opt));
     }
     return w->ruler[0] < 0 || w->ruler[0] != w->ruler[1] ||
            fault_set(f, EXIT_USAGE, "--ruler: both ends are %s", w->opt->ruler[0]);
+}
+
+/* --- showing the dots --- */
+
+static int open_pick(pick *p, const track_options *opt, fault *f)
+{
+    uint8_t *list = NULL;
+    size_t size;
+
+    if (opt->labels_path && !read_input(opt->labels_path, &list, &size, f))
+        return 0;
+    const fap_err err = pick_open(p, (const char *)list, opt->mirrors); /* a NUL ends what was read */
+    free(list);
+    return err == FAP_OK || fault_set(f, EXIT_DATA, "%s: %s", opt->labels_path ? opt->labels_path : "labels",
+                                      err == FAP_E_NOT_FOUND ? "no label in it" : fap_strerror(err));
+}
+
+static int write_pick(const pick *p, const char *path, fault *f)
+{
+    out_file file;
+
+    if (out_file_open(&file, path))
+        return fault_set(f, EXIT_DATA, "%s: %s", path, strerror(errno));
+    pick_write(p, file.stream);
+    return !out_file_commit(&file) || fault_set(f, EXIT_DATA, "%s: %s", path, strerror(errno));
+}
+
+/* In the first picture of a video that is opened for it alone. */
+static int show_dots(const track_options *opt, fault *f)
+{
+    video_in video;
+    pick p;
+
+    if (!open_pick(&p, opt, f))
+        return 0;
+    const int well = video_in_open(&video, opt, f) && video_in_next(&video, f) &&
+                     pick_window_run(&p, &video.picture, f) && write_pick(&p, opt->pick_path, f);
+    video_in_close(&video);
+    pick_close(&p);
+    return well;
 }
 
 /* --- the take --- */
@@ -182,9 +229,9 @@ int track_run(int argc, char **argv)
     if (!track_options_parse(&opt, argc, argv))
         return opt.exit_status;
     track_work w = { .opt = &opt, .over = overlay_of(NULL, 0) };
-    if (work(&w, &f))
+    if ((!opt.pick_path || show_dots(&opt, &f)) && opt.output && work(&w, &f))
         (opt.json ? track_report_json : track_report_say)(&w);
-    else
+    if (f.exit_status != EXIT_OK)
         tool_error("%s", f.text);
     tidy(&w);
     return f.exit_status;

@@ -20,6 +20,9 @@ static const char help[] =
     "two numbers\n"
     "                        more for each mirror, empty where a dot is not seen; pixels, 0 is the middle of "
     "the first\n"
+    "      --pick FILE       show where they are in a window, and write that table; with -o it is then used\n"
+    "      --mirrors N       to pick in: 0, 1 or 2 (2)\n"
+    "      --labels FILE     what to pick, one a line; else the feature points people put dots on\n"
     "  -o, --output FILE     the take: .trc or .c3d, millimetres\n"
     "      --camera FILE     what the camera was measured to be: JSON with width, height, fx, fy, cx, cy and "
     "k, or as\n"
@@ -38,13 +41,17 @@ static const char help[] =
     "  fapenc track anna.mp4 --init anna.csv --camera camera.json --ruler \"ruler A,ruler B,100\" -o "
     "anna.trc\n"
     "  fapenc anna.trc -o anna.fap\n"
+    "  fapenc track anna.mp4 --pick anna.csv --mirrors 1 -o anna.trc\n"
     "  fapenc track anna.mp4 --init anna.csv --overlay look.mp4 --json -o anna.c3d > report.json\n"
     "\n"
-    "Exit: 0 success, 1 bad data, 2 bad usage, 3 the program ffmpeg is missing. docs/track.md says how to "
+    "Exit: 0 success, 1 bad data, 2 bad usage, 3 ffmpeg or a display is missing. docs/track.md says how to "
     "film.\n";
 
 enum {
     OPT_INIT = 256,
+    OPT_PICK,
+    OPT_MIRRORS,
+    OPT_LABELS,
     OPT_CAMERA,
     OPT_VIEW,
     OPT_RULER,
@@ -60,6 +67,9 @@ enum {
 
 static const struct option long_options[] = {
     { "init", required_argument, NULL, OPT_INIT },
+    { "pick", required_argument, NULL, OPT_PICK },
+    { "mirrors", required_argument, NULL, OPT_MIRRORS },
+    { "labels", required_argument, NULL, OPT_LABELS },
     { "output", required_argument, NULL, 'o' },
     { "camera", required_argument, NULL, OPT_CAMERA },
     { "view", required_argument, NULL, OPT_VIEW },
@@ -120,11 +130,24 @@ static int parse_fields(track_options *opt, const char *text)
     return usage(opt);
 }
 
+static int parse_mirrors(track_options *opt, const char *text)
+{
+    double mirrors;
+
+    if (!number(opt, "mirrors", text, 0, 2, &mirrors))
+        return 0;
+    opt->mirrors = (int)mirrors;
+    return 1;
+}
+
 static int parse_option(track_options *opt, int c, const char *arg)
 {
     switch (c) {
     case 'o': opt->output = arg; return 1;
     case OPT_INIT: opt->init_path = arg; return 1;
+    case OPT_PICK: opt->pick_path = arg; return 1;
+    case OPT_MIRRORS: return parse_mirrors(opt, arg);
+    case OPT_LABELS: opt->labels_path = arg; return 1;
     case OPT_CAMERA: opt->camera_path = arg; return 1;
     case OPT_VIEW: return number(opt, "view", arg, 5, 150, &opt->view_deg);
     case OPT_RULER: return parse_ruler(opt, arg);
@@ -151,17 +174,30 @@ int track_options_want_c3d(const track_options *opt)
     return ends_with(opt->output, ".c3d");
 }
 
+static int check_output(track_options *opt)
+{
+    if (!ends_with(opt->output, ".trc") && !ends_with(opt->output, ".c3d"))
+        tool_error("-o %s: a take ends in .trc or .c3d; fapenc then makes FAPs of it", opt->output);
+    else if (!opt->init_path && !opt->pick_path)
+        tool_error("where are the dots? --init POINTS.csv, a line each: LABEL,X,Y of the first picture; or "
+                   "--pick POINTS.csv");
+    else
+        return 1;
+    return usage(opt);
+}
+
 static int check(track_options *opt)
 {
     if (!opt->video)
         tool_error("what to follow? fapenc track VIDEO --init POINTS.csv -o TAKE.trc; fapenc track --help "
                    "tells more");
-    else if (!opt->output)
+    else if (!opt->output && !opt->pick_path)
         tool_error("where to? -o TAKE.trc or -o TAKE.c3d");
-    else if (!ends_with(opt->output, ".trc") && !ends_with(opt->output, ".c3d"))
-        tool_error("-o %s: a take ends in .trc or .c3d; fapenc then makes FAPs of it", opt->output);
-    else if (!opt->init_path)
-        tool_error("where are the dots? --init POINTS.csv, a line each: LABEL,X,Y of the first picture");
+    else if (opt->init_path && opt->pick_path)
+        tool_error("--init %s and --pick %s: the dots are known, or they are to be shown", opt->init_path,
+                   opt->pick_path);
+    else if (opt->labels_path && !opt->pick_path)
+        tool_error("--labels belongs to --pick");
     else if (opt->overlay_path && !ends_with(opt->overlay_path, ".mp4"))
         tool_error("--overlay %s: expected a name that ends in .mp4", opt->overlay_path);
     else if (opt->end_s > 0 && opt->end_s <= opt->start_s)
@@ -169,7 +205,7 @@ static int check(track_options *opt)
     else if (opt->camera_path && opt->view_deg > 0)
         tool_error("--camera and --view: a measured camera needs no guess");
     else
-        return 1;
+        return !opt->output || check_output(opt);
     return usage(opt);
 }
 
@@ -177,7 +213,7 @@ int track_options_parse(track_options *opt, int argc, char **argv)
 {
     int c;
 
-    *opt = (track_options){ .exit_status = EXIT_OK };
+    *opt = (track_options){ .mirrors = 2, .exit_status = EXIT_OK };
     while ((c = getopt_long(argc, argv, "o:", long_options, NULL)) != -1)
         if (!parse_option(opt, c, optarg))
             return 0;

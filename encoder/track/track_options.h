@@ -10,6 +10,8 @@ typedef enum track_fields { FIELDS_AUTO, FIELDS_NONE, FIELDS_TOP_FIRST, FIELDS_B
 typedef struct track_options {
     const char *video, *output;
     const char *init_path, *camera_path; /* camera NULL: view_deg */
+    const char *pick_path, *labels_path; /* NULL: nothing is picked; labels NULL: the usual ones */
+    int mirrors;                         /* in which dots are picked */
     const char *overlay_path;            /* NULL: none */
     double view_deg;                     /* across the picture */
     double radius_px;                    /* 0: as found */
