@@ -2,6 +2,7 @@
 /* See report_capture.h. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "common/json.h"
 #include "common/tool.h"
@@ -121,26 +122,58 @@ static void say_fapu(const fap_capture_report *r)
     tool_note("FAPU, mm: %s", l.text);
 }
 
-static void say_faps(const fap_capture_report *r)
+/* "Mouth_Up", "Mouth_Up 0.7, Mouth_UpL1 0.3": what a FAP was taken from. */
+static void add_markers(line *l, const run_report *rep, const fap_capture_origin *o)
 {
-    line unseen = { "", 0 };
+    char text[FAP_TAKE_NAME_SIZE + 16];
+
+    for (int i = 0; i < o->marker_count; i++) {
+        snprintf(text, sizeof text, o->how == FAP_HOW_RBF ? "%s %.2f" : "%s", rep->take->name[o->marker[i]],
+                 (double)o->share[i]);
+        add(l, ", ", text);
+    }
+}
+
+static void say_fap(const run_report *rep, int fap, const fap_capture_fap *f)
+{
+    line markers = { "", 0 };
+    char beyond[48] = "";
+
+    add_markers(&markers, rep, &f->origin);
+    if (f->beyond)
+        snprintf(beyond, sizeof beyond, "; %u frames beyond the usual range", (unsigned)f->beyond);
+    tool_note("  %2d %-24s %6d .. %-6d in %u frames, from %s%s%s%s%s%s%s", fap, fap_info_get(fap)->name,
+              (int)f->min, (int)f->max, (unsigned)f->coded, f->near ? "near " : "", point_name(f->point),
+              markers.used ? ", " : "", markers.used ? fap_how_name((fap_how)f->origin.how) : "",
+              markers.used ? ": " : "", markers.text, beyond);
+}
+
+/* FAPs not sent for the same reason share a line. */
+static void say_missing(const fap_capture_report *r, int first)
+{
+    const char *reason = r->fap[first].reason;
+    line l = { "", 0 };
     char number[16];
 
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        const fap_capture_fap *f = &r->fap[fap];
-        snprintf(number, sizeof number, "%d", fap);
-        if (!f->coded) {
-            add(&unseen, " ", number);
+        if (!r->fap[fap].reason || strcmp(r->fap[fap].reason, reason) != 0)
             continue;
-        }
-        char beyond[48] = "";
-        if (f->beyond)
-            snprintf(beyond, sizeof beyond, "; %u frames beyond the usual range", (unsigned)f->beyond);
-        tool_note("  %2d %-24s %6d .. %-6d in %u frames, from %s%s%s", fap, fap_info_get(fap)->name,
-                  (int)f->min, (int)f->max, (unsigned)f->coded, f->near ? "near " : "", point_name(f->point),
-                  beyond);
+        if (fap < first)
+            return;
+        snprintf(number, sizeof number, "%d", fap);
+        add(&l, " ", number);
     }
-    tool_note("  no marker gives: %s", unseen.text);
+    tool_note("  not sent: %s: %s", l.text, reason);
+}
+
+static void say_faps(const run_report *rep, const fap_capture_report *r)
+{
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (r->fap[fap].coded)
+            say_fap(rep, fap, &r->fap[fap]);
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (r->fap[fap].reason)
+            say_missing(r, fap);
 }
 
 static void say_notes(const run_report *rep, const fap_capture_report *r)
@@ -165,7 +198,7 @@ void report_capture_say(const options *opt, const run_report *rep)
     say_head(rep, r);
     say_fapu(r);
     tool_note("%s: %u frames at %g Hz", opt->output, (unsigned)r->frames, r->rate_hz);
-    say_faps(r);
+    say_faps(rep, r);
 }
 
 /* --- a capture, in JSON --- */
@@ -284,29 +317,56 @@ static void json_neutral(json *j, const fap_capture_report *r)
     json_close(j, '}');
 }
 
-static void json_faps(json *j, const fap_capture_report *r)
+static void json_origin(json *j, const run_report *rep, const fap_capture_origin *o)
 {
-    json_open(j, "faps", '[');
-    for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        const fap_capture_fap *f = &r->fap[fap];
-        if (!f->coded)
-            continue;
+    json_string(j, "how", fap_how_name((fap_how)o->how));
+    json_open(j, "markers", '[');
+    for (int i = 0; i < o->marker_count; i++) {
         json_open(j, NULL, '{');
-        json_integer(j, "fap", fap);
-        json_string(j, "name", fap_info_get(fap)->name);
-        json_integer(j, "frames", f->coded);
-        json_integer(j, "min", f->min);
-        json_integer(j, "max", f->max);
-        json_integer(j, "beyond_range", f->beyond);
-        json_string(j, "point", point_name(f->point));
-        json_bool(j, "near", f->near);
+        json_string(j, "name", rep->take->name[o->marker[i]]);
+        json_number(j, "share", (double)o->share[i]);
         json_close(j, '}');
     }
+    json_close(j, ']');
+}
+
+static void json_fap(json *j, const run_report *rep, int fap, const fap_capture_fap *f)
+{
+    json_open(j, NULL, '{');
+    json_integer(j, "fap", fap);
+    json_string(j, "name", fap_info_get(fap)->name);
+    json_integer(j, "frames", f->coded);
+    json_integer(j, "min", f->min);
+    json_integer(j, "max", f->max);
+    json_integer(j, "beyond_range", f->beyond);
+    json_string(j, "point", point_name(f->point));
+    json_bool(j, "near", f->near);
+    if (f->point >= 0)
+        json_origin(j, rep, &f->origin);
+    json_close(j, '}');
+}
+
+static void json_faps(json *j, const run_report *rep, const fap_capture_report *r)
+{
+    json_open(j, "faps", '[');
+    for (int fap = 1; fap <= FAP_COUNT; fap++)
+        if (r->fap[fap].coded)
+            json_fap(j, rep, fap, &r->fap[fap]);
     json_close(j, ']');
     json_open(j, "unseen", '[');
     for (int fap = 1; fap <= FAP_COUNT; fap++)
         if (!r->fap[fap].coded)
             json_integer(j, NULL, fap);
+    json_close(j, ']');
+    json_open(j, "not_sent", '[');
+    for (int fap = 1; fap <= FAP_COUNT; fap++) {
+        if (!r->fap[fap].reason)
+            continue;
+        json_open(j, NULL, '{');
+        json_integer(j, "fap", fap);
+        json_string(j, "reason", r->fap[fap].reason);
+        json_close(j, '}');
+    }
     json_close(j, ']');
 }
 
@@ -335,7 +395,7 @@ void report_capture_json(const options *opt, const run_report *rep)
     json_cleaning(&j, rep, r);
     json_head(&j, rep, r);
     json_neutral(&j, r);
-    json_faps(&j, r);
+    json_faps(&j, rep, r);
     json_notes(&j, rep, r);
     json_close(&j, '}');
     putchar('\n');

@@ -25,7 +25,7 @@ struct fap_capture {
     marker_place *place;              /* [report.take_points] */
     float (*moved)[4];                /* [report.frames][report.take_points]: x, y, z, seen */
     double face_scale;
-    fap_clean_point *cleaned;         /* [report.take_points] */
+    fap_clean_point *cleaned; /* [report.take_points] */
     fap_capture_report report;
 };
 
@@ -55,6 +55,7 @@ const char *fap_how_name(fap_how how)
     case FAP_HOW_DIRECT: return "direct";
     case FAP_HOW_RBF: return "RBF";
     case FAP_HOW_DERIVED: return "derived";
+    case FAP_HOW_COPIED: return "copied";
     case FAP_HOW_NONE: break;
     }
     return "none";

@@ -423,3 +423,41 @@ TEST(capture, places_of_markers_are_those_of_the_face_at_rest)
     fap_capture_close(&c);
     fap_take_close(&take);
 }
+
+TEST(capture, what_is_sent_names_its_markers_and_what_is_not_a_reason)
+{
+    fap_take *take = make_take(straight);
+    fap_capture *c = encode(take, NULL);
+    const fap_capture_report *r = fap_capture_report_get(c);
+    int with_markers = 0;
+
+    for (int fap = 1; fap <= FAP_COUNT; fap++) {
+        assert_int_equal(r->fap[fap].reason != NULL, r->fap[fap].coded == 0);
+        with_markers += r->fap[fap].origin.marker_count > 0;
+        if (r->fap[fap].coded && r->fap[fap].point >= 0) {
+            assert_int_not_equal(r->fap[fap].origin.how, FAP_HOW_NONE);
+            assert_true(r->fap[fap].origin.marker_count > 0);
+        }
+    }
+    assert_true(with_markers > 30);
+    assert_string_equal(take->name[r->fap[53].origin.marker[0]], "Anna:8.3");
+    assert_string_equal(fap_how_name((fap_how)r->fap[53].origin.how), "direct");
+    assert_non_null(strstr(r->fap[43].reason, "tongue"));
+    assert_non_null(strstr(r->fap[27].reason, "depth"));
+    fap_capture_close(&c);
+    fap_take_close(&take);
+}
+
+TEST(capture, skin_beside_the_eye_is_no_lid_and_the_chin_stands_in_for_the_jaw)
+{
+    fap_capture *c = encode_shared("optical_animface/jaw_60hz.c3d");
+    const fap_capture_report *r = fap_capture_report_get(c);
+
+    for (int fap = 19; fap <= 22; fap++)
+        assert_non_null(strstr(r->fap[fap].reason, "lid"));
+    assert_non_null(strstr(r->fap[18].reason, "jaw"));
+    assert_int_equal(r->fap[3].origin.how, FAP_HOW_COPIED);
+    assert_int_equal(r->fap[5].origin.how, FAP_HOW_DERIVED);
+    assert_int_equal(r->fap[31].origin.how, FAP_HOW_DIRECT);
+    fap_capture_close(&c);
+}

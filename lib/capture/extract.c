@@ -121,6 +121,8 @@ static void extract_fap(performance *p, int fap)
         return;
     p->report->fap[fap].point = (int8_t)point;
     p->report->fap[fap].origin = p->origin[point];
+    if (stands_in)
+        p->report->fap[fap].origin.how = FAP_HOW_COPIED;
     p->report->fap[fap].near =
         stands_in || p->origin[point].how != FAP_HOW_DIRECT || p->report->markers.point[point].near;
     for (uint32_t f = 0; f < p->frames; f++) {
@@ -211,6 +213,8 @@ void faps_extract(performance *p)
         extract_fap(p, fap);
     if (p->has_body)
         extract_head(p);
-    for (int fap = 1; fap <= FAP_COUNT; fap++)
+    for (int fap = 1; fap <= FAP_COUNT; fap++) {
         count_fap(p, fap);
+        p->report->fap[fap].reason = p->report->fap[fap].coded ? NULL : reason_for(p, fap);
+    }
 }

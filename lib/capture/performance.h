@@ -67,6 +67,8 @@ void points_place(performance *p);
 void points_ease(performance *p);
 fap_err fapu_settle(performance *p);
 void faps_extract(performance *p);
+/* Why it is not sent; static. */
+const char *reason_for(const performance *p, int fap);
 
 /* A place at rest in head axes; 0 when it has none. */
 int head_place(const performance *p, uint32_t point, float out[3]);

@@ -65,8 +65,9 @@ typedef enum fap_how {
     FAP_HOW_DIRECT,  /**< a marker sits on the point, or the mean of some does */
     FAP_HOW_RBF,     /**< mixed from the markers around it */
     FAP_HOW_DERIVED, /**< follows from other points: an inner lip from the outer one */
+    FAP_HOW_COPIED,  /**< of a FAP: another point of the same bone or lip stands in, the chin for the jaw */
 } fap_how;
-/** "direct", "RBF", "derived"; static. */
+/** "direct", "RBF", "derived", "copied"; static. */
 FAP_API const char *fap_how_name(fap_how how);
 
 #define FAP_CAPTURE_MARKERS 4
