@@ -461,3 +461,18 @@ TEST(capture, skin_beside_the_eye_is_no_lid_and_the_chin_stands_in_for_the_jaw)
     assert_int_equal(r->fap[31].origin.how, FAP_HOW_DIRECT);
     fap_capture_close(&c);
 }
+
+/* Half a second at rest, then two seconds of one broad smile: it is the smile that is FAPs. */
+TEST(capture, a_long_smile_is_not_the_neutral_face)
+{
+    fap_capture *c = encode_shared("mediapipe/face_noface_facemesh478.csv");
+    const fap_capture_report *r = fap_capture_report_get(c);
+
+    assert_true(r->neutral_s < 0.6);
+    for (int fap = 59; fap <= 60; fap++) {
+        assert_true(abs(fap_capture_frames(c)[8].value[fap]) < 60);
+        assert_true(fap_capture_frames(c)[50].value[fap] > 200);
+    }
+    assert_true(fap_capture_frames(c)[50].value[53] > 100);
+    fap_capture_close(&c);
+}

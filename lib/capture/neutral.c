@@ -157,20 +157,24 @@ static void measure(const performance *p, moments *m)
 
 /* --- the choice --- */
 
-/* Each part is 1 at what is usual in this take; a mouth open by 2 mm more than its closed state counts like
- * that. */
+/*
+ * Each part is 1 at what is usual in this take; a mouth open by 2 mm more than its closed state counts like that. What is
+ * usual counts up to a limit: most of a short take may be one long smile, and the closed mouth before it is still at rest.
+ */
 static uint32_t best_frame(const moments *m)
 {
+    static const double most_unusual = 3;
     const double speed = quantile(m->speed, m->frames, 0.5, m->scratch) + 0.1;
     const double distance = quantile(m->distance, m->frames, 0.5, m->scratch) + 0.5;
-    const double closed = quantile(m->mouth, m->frames, 0.2, m->scratch);
+    const double closed = quantile(m->mouth, m->frames, 0.1, m->scratch);
     const double awake = quantile(m->lids, m->frames, 0.7, m->scratch);
     double least = INFINITY;
     uint32_t best = 0;
 
     for (uint32_t f = 0; f < m->frames; f++) {
         const double open = fabs(m->mouth[f] - closed) / 2, asleep = fabs(m->lids[f] - awake) / 2;
-        const double score = m->speed[f] / speed + m->distance[f] / distance + open + asleep;
+        const double unusual = fmin(m->distance[f] / distance, most_unusual);
+        const double score = m->speed[f] / speed + unusual + open + asleep;
         if (score < least) {
             least = score;
             best = f;
