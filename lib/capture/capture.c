@@ -196,7 +196,11 @@ static fap_err understand_face(performance *p)
     points_place(p);
     points_ease(p);
     err = fapu_settle(p);
-    return err == FAP_OK ? points_retarget(p) : err;
+    if (err == FAP_OK)
+        err = points_retarget(p);
+    if (err == FAP_OK)
+        gaze_settle(p);
+    return err;
 }
 
 static fap_err encode(performance *p, const fap_take *take)

@@ -9,13 +9,16 @@
 
 #include "capture/performance.h"
 
-/* An inner point, the outer one beside it, and the outer one's neighbours along the edge. */
+/*
+ * An inner point, the outer one beside it, and the outer one's neighbours along the edge. A corner has none: what lies above
+ * and below it tilts whenever one lip is pushed out, and the corner with it by millimetres.
+ */
 static const struct lip {
     const char *inner, *outer, *before, *after;
 } lips[] = {
     { "2.2", "8.1", "8.6", "8.5" }, { "2.6", "8.5", "8.1", "8.3" }, { "2.7", "8.6", "8.4", "8.1" },
     { "2.3", "8.2", "8.8", "8.7" }, { "2.8", "8.7", "8.2", "8.3" }, { "2.9", "8.8", "8.4", "8.2" },
-    { "2.4", "8.3", "8.7", "8.5" }, { "2.5", "8.4", "8.8", "8.6" },
+    { "2.4", "8.3", NULL, NULL },   { "2.5", "8.4", NULL, NULL },
 };
 
 /* Upper and lower. */
@@ -72,7 +75,8 @@ static void turn(const performance *p, uint32_t frame, const int point[4], doubl
     double inner[3], outer[3], a[3], b[3], rest[3][3], now[3][3];
 
     memset(out, 0, 3 * sizeof *out);
-    if (!p->known[point[2]] || !p->known[point[3]] || !p->seen[frame][point[2]] || !p->seen[frame][point[3]])
+    if (point[2] < 0 || !p->known[point[2]] || !p->known[point[3]] || !p->seen[frame][point[2]] ||
+        !p->seen[frame][point[3]])
         return;
     rest_place(p, point[0], inner);
     rest_place(p, point[1], outer);
@@ -117,7 +121,8 @@ static int is_present(const performance *p, int point)
 static void derive(performance *p, const struct lip *lip)
 {
     const int point[4] = { fap_point_by_name(lip->inner), fap_point_by_name(lip->outer),
-                           fap_point_by_name(lip->before), fap_point_by_name(lip->after) };
+                           lip->before ? fap_point_by_name(lip->before) : -1,
+                           lip->after ? fap_point_by_name(lip->after) : -1 };
 
     if (!p->known[point[0]] && p->known[point[1]] && is_present(p, point[0]) && is_present(p, point[1]))
         derive_point(p, point);

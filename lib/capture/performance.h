@@ -82,6 +82,8 @@ void face_close(performance *p);
 fap_err points_retarget(performance *p);
 /* Inner lips from outer ones; after points_retarget(). */
 void lips_derive(performance *p);
+/* Pupils that can be believed; after points_retarget(). */
+void gaze_settle(performance *p);
 /* The mean of a feature point's markers at rest, take axes; 0 when one of them has no place. */
 int neutral_point(const performance *p, int feature_point, double out[3]);
 
