@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "common/tool.h"
-#include "player/audio/sound_file.h"
+#include "common/sound_file.h"
 #include "player/lines.h"
 #include "player/plan.h"
 #include "player/render/renderer.h"

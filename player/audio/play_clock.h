@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-#include "player/audio/sound_file.h"
+#include "common/sound_file.h"
 
 /* Microseconds that never go back, from any origin. Tests bring their own. */
 typedef int64_t (*time_source)(void);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* Sound files: whether they are any, how long, and their samples. sound_file.c alone names libsndfile. */
-#ifndef PLAYER_AUDIO_SOUND_FILE_H
-#define PLAYER_AUDIO_SOUND_FILE_H
+#ifndef COMMON_SOUND_FILE_H
+#define COMMON_SOUND_FILE_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* The take of the demo, and files that are no sounds. */
-#include "player/audio/sound_file.h"
+#include "common/sound_file.h"
 #include "tests/test.h"
 
 static const char demo[] = "tests/assets/demo_take.wav";

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "player/audio/sound_file.h"
+#include "common/sound_file.h"
 
 void sound_free(sound *s)
 {
@@ -125,7 +125,7 @@ fap_err sound_load(sound *out, const char *path, char *where)
 static fap_err no_sndfile(char *where)
 {
     snprintf(where, FAP_ERROR_TEXT_SIZE,
-             "this fapplay was built without libsndfile; install it and build again");
+             "this build is without libsndfile; install libsndfile1-dev and build again");
     return FAP_E_UNSUPPORTED;
 }
 
