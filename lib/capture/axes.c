@@ -244,6 +244,36 @@ static void swap_sides(performance *p)
            "--axes keeps them");
 }
 
+/*
+ * Coils lie in the plane that parts left from right, and none of a pair: forward is from the tongue's body to the lips, up
+ * from the lower lip to the upper.
+ */
+static int found_in_mouth(performance *p)
+{
+    double tongue[3], upper[3], lower[3], forward[3], up[3], left[3];
+
+    if (!neutral_point(p, fap_point_by_name("6.2"), tongue) ||
+        !neutral_point(p, fap_point_by_name("8.1"), upper) ||
+        !neutral_point(p, fap_point_by_name("8.2"), lower))
+        return 0;
+    for (int axis = 0; axis < 3; axis++) {
+        up[axis] = upper[axis] - lower[axis];
+        forward[axis] = (upper[axis] + lower[axis]) / 2 - tongue[axis];
+    }
+    if (!normalise(up))
+        return 0;
+    prefer_own_axis((const double[3]){ 0 }, up);
+    remove_part(forward, up);
+    if (!normalise(forward))
+        return 0;
+    prefer_own_axis(up, forward);
+    cross(up, forward, left);
+    memcpy(p->axes[0], left, sizeof left);
+    memcpy(p->axes[1], up, sizeof up);
+    memcpy(p->axes[2], forward, sizeof forward);
+    return 1;
+}
+
 static int found(performance *p)
 {
     double x[3], up[3], z[3];
@@ -296,7 +326,7 @@ fap_err axes_find(performance *p)
         if (!parse_axes(p->cfg->axes, p->axes))
             return performance_fail(
                 p, FAP_E_ARG, "--axes %s: expected three of x, y, z with signs, like x-zy", p->cfg->axes);
-    } else if (found(p)) {
+    } else if (found(p) || found_in_mouth(p)) {
         p->report->axes_found = 1;
     } else {
         memcpy(p->axes, straight, sizeof straight);

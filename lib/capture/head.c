@@ -45,11 +45,22 @@ static int is_rigid(const performance *p, uint32_t point)
     return (p->report->markers.role[point] & FAP_MARKER_RIGID) != 0;
 }
 
+/* Lips, jaw and tongue may be near one another for a whole take and still are no head. */
+static int is_of_mouth(int feature_point)
+{
+    const int group = fap_point_get(feature_point)->group, index = fap_point_get(feature_point)->index;
+    return group == 2 || group == 6 || group == 8 || (group == 9 && index >= 8 && index <= 11);
+}
+
 static int is_any(const performance *p, uint32_t point)
 {
-    (void)p;
-    (void)point;
-    return 1;
+    for (int i = 0; i < FAP_POINT_COUNT; i++) {
+        const fap_marker_source *s = &p->report->markers.point[i];
+        for (int k = 0; k < s->count; k++)
+            if (s->index[k] == (int16_t)point && is_of_mouth(i))
+                return 0;
+    }
+    return !(p->report->markers.role[point] & (FAP_MARKER_INSIDE | FAP_MARKER_MOUTH));
 }
 
 static int learn_named(performance *p)
@@ -58,7 +69,7 @@ static int learn_named(performance *p)
     return p->body.count >= 3 && rigid_body_learn(&p->body, p->take);
 }
 
-/* First among points that carry no FAP, then among all. */
+/* First among points that carry no FAP, then among all but the mouth's. */
 static int find_any(performance *p)
 {
     uint16_t candidate[RIGID_MAX_POINTS];

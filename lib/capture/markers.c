@@ -24,6 +24,7 @@ enum {
     KIND_MOUTH = FAP_MARKER_MOUTH,
     KIND_BROW_LEFT = FAP_MARKER_BROW_LEFT,
     KIND_BROW_RIGHT = FAP_MARKER_BROW_RIGHT,
+    KIND_INSIDE = FAP_MARKER_INSIDE | FAP_MARKER_IDLE,
 };
 
 static const struct marker_row {
@@ -284,7 +285,7 @@ fap_err fap_markers_map(fap_markers *out, const fap_take *take, const char *csv,
     map_direct(out, take);
     map_built_in(out, take);
     for (uint32_t p = 0; p < take->point_count; p++)
-        if (out->role[p] & ~(FAP_MARKER_RIGID | FAP_MARKER_IDLE))
+        if (out->role[p] & ~(FAP_MARKER_RIGID | FAP_MARKER_IDLE | FAP_MARKER_INSIDE))
             return FAP_OK;
     return nothing_known(where, take);
 }

@@ -26,7 +26,7 @@ static uint32_t window(const performance *p)
 
 static int is_of_face(const performance *p, uint32_t point)
 {
-    return (p->report->markers.role[point] & ~(FAP_MARKER_RIGID | FAP_MARKER_IDLE)) != 0;
+    return (p->report->markers.role[point] & ~(FAP_MARKER_RIGID | FAP_MARKER_IDLE | FAP_MARKER_INSIDE)) != 0;
 }
 
 static int by_value(const void *a, const void *b)

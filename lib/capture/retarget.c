@@ -77,7 +77,8 @@ static int skin_open(const performance *p, skin *s)
         const face_spot *spot = &p->face.spot[i];
         s->point[i] = (int16_t)point_of(p, i);
         s->centre[i].side = spot->side;
-        s->centre[i].use = spot->known && spot->off_mm < off_skin_mm * s->size && is_skin(s->point[i]);
+        s->centre[i].use = spot->known && spot->off_mm < off_skin_mm * s->size && is_skin(s->point[i]) &&
+                           !(p->report->markers.role[i] & FAP_MARKER_INSIDE);
         memcpy(s->centre[i].at, spot->at, sizeof spot->at);
     }
     return 1;

@@ -23,6 +23,8 @@ enum {
     FAP_MARKER_MOUTH = 8,      /**< of a ring around the mouth, place unknown until geometry says */
     FAP_MARKER_BROW_LEFT = 16, /**< of a brow, place unknown until geometry says */
     FAP_MARKER_BROW_RIGHT = 32,
+    FAP_MARKER_INSIDE =
+        64, /**< in the mouth: a coil on the gums or the tongue's root; says nothing about skin */
 };
 
 /** The points of the take behind one feature point. */
