@@ -5,29 +5,37 @@
  * the brow), so others that carry no FAP and keep their place join in, and each is weighted by how well it
  * keeps it.
  */
-#include <stddef.h>
-
 #include "capture/performance.h"
+
+/* Lips, jaw and tongue may be near one another for a whole take and still are no head. */
+static int is_of_mouth(int feature_point)
+{
+    const int group = fap_point_get(feature_point)->group, index = fap_point_get(feature_point)->index;
+    return group == 2 || group == 6 || group == 8 || (group == 9 && index >= 8 && index <= 11);
+}
+
+static int is_not_of_mouth(const performance *p, uint32_t point)
+{
+    for (int i = 0; i < FAP_POINT_COUNT; i++) {
+        const fap_marker_source *s = &p->report->markers.point[i];
+        for (int k = 0; k < s->count; k++)
+            if (s->index[k] == (int16_t)point && is_of_mouth(i))
+                return 0;
+    }
+    return !(p->report->markers.role[point] & (FAP_MARKER_INSIDE | FAP_MARKER_MOUTH));
+}
 
 /* May the point be rigid without disturbing a FAP: it moves with no feature point that FAPs move. */
 static int is_free(const performance *p, uint32_t point)
 {
-    static const char *const jaw[] = { "2.11", "2.12", "2.13", "2.14" };
-
     for (int i = 0; i < FAP_POINT_COUNT; i++) {
         const fap_marker_source *s = &p->report->markers.point[i];
         for (int k = 0; k < s->count; k++)
             if (s->index[k] == (int16_t)point && fap_point_get(i)->moved)
                 return 0;
     }
-    for (size_t j = 0; j < sizeof jaw / sizeof *jaw; j++) {
-        const fap_marker_source *s = &p->report->markers.point[fap_point_by_name(jaw[j])];
-        for (int k = 0; k < s->count; k++)
-            if (s->index[k] == (int16_t)point)
-                return 0;
-    }
-    return !(p->report->markers.role[point] &
-             (FAP_MARKER_MOUTH | FAP_MARKER_BROW_LEFT | FAP_MARKER_BROW_RIGHT));
+    return !(p->report->markers.role[point] & (FAP_MARKER_BROW_LEFT | FAP_MARKER_BROW_RIGHT)) &&
+           is_not_of_mouth(p, point);
 }
 
 static uint32_t list_points(const performance *p, int (*wanted)(const performance *, uint32_t), uint16_t *out)
@@ -45,24 +53,6 @@ static int is_rigid(const performance *p, uint32_t point)
     return (p->report->markers.role[point] & FAP_MARKER_RIGID) != 0;
 }
 
-/* Lips, jaw and tongue may be near one another for a whole take and still are no head. */
-static int is_of_mouth(int feature_point)
-{
-    const int group = fap_point_get(feature_point)->group, index = fap_point_get(feature_point)->index;
-    return group == 2 || group == 6 || group == 8 || (group == 9 && index >= 8 && index <= 11);
-}
-
-static int is_any(const performance *p, uint32_t point)
-{
-    for (int i = 0; i < FAP_POINT_COUNT; i++) {
-        const fap_marker_source *s = &p->report->markers.point[i];
-        for (int k = 0; k < s->count; k++)
-            if (s->index[k] == (int16_t)point && is_of_mouth(i))
-                return 0;
-    }
-    return !(p->report->markers.role[point] & (FAP_MARKER_INSIDE | FAP_MARKER_MOUTH));
-}
-
 static int learn_named(performance *p)
 {
     p->body.count = list_points(p, is_rigid, p->body.point);
@@ -75,7 +65,7 @@ static int find_any(performance *p)
     uint16_t candidate[RIGID_MAX_POINTS];
 
     return rigid_body_find(&p->body, p->take, candidate, list_points(p, is_free, candidate)) ||
-           rigid_body_find(&p->body, p->take, candidate, list_points(p, is_any, candidate));
+           rigid_body_find(&p->body, p->take, candidate, list_points(p, is_not_of_mouth, candidate));
 }
 
 static void extend(performance *p)
