@@ -14,9 +14,9 @@ enum { FAP_ALPHABET_ANY = FAP_ALPHABET_COUNT };
 static const struct row {
     uint8_t alphabet;
     const char *name;
-    uint8_t viseme, second;
+    uint8_t viseme, second, silent;
 } rows[] = {
-#define X(alphabet, name, viseme, second) { FAP_ALPHABET_##alphabet, name, viseme, second },
+#define X(alphabet, name, viseme, second, silent) { FAP_ALPHABET_##alphabet, name, viseme, second, silent },
     PHONEMES_ROWS(X)
 #undef X
 };
@@ -89,12 +89,24 @@ static const struct row *find(fap_alphabet alphabet, const char *name)
     return best;
 }
 
-int fap_phoneme_visemes(fap_alphabet alphabet, const char *name, int *second)
+static const struct row *look_up(fap_alphabet alphabet, const char *name)
 {
     const struct row *row = *name ? find(alphabet, name) : NULL;
 
-    if (!row && *name)
-        row = find(alphabet, skip_stress(name));
+    return row || !*name ? row : find(alphabet, skip_stress(name));
+}
+
+int phonemes_is_silence(fap_alphabet alphabet, const char *name)
+{
+    const struct row *row = look_up(alphabet, name);
+
+    return row ? row->silent : !*name;
+}
+
+int fap_phoneme_visemes(fap_alphabet alphabet, const char *name, int *second)
+{
+    const struct row *row = look_up(alphabet, name);
+
     if (second)
         *second = row ? row->second : 0;
     if (!*name)
