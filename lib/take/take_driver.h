@@ -28,7 +28,8 @@ typedef struct take_driver {
 } take_driver;
 
 extern const take_driver take_driver_c3d, take_driver_trc, take_driver_nexus, take_driver_motive,
-    take_driver_plain, take_driver_openface, take_driver_coefficients;
+    take_driver_plain, take_driver_openface, take_driver_coefficients, take_driver_ema_pos,
+    take_driver_ema_mat;
 
 /* Says where and returns @p err. */
 fap_err take_fail(take_source *src, fap_err err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
