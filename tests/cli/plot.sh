@@ -20,3 +20,10 @@ expect 1 "$B/fapenc" "$T/a.fap" -o "$T/d.fap" --plot "$T/nowhere/d.png"
 says 'nowhere'
 expect 2 "$B/fapenc" inspect "$T/a.fap" --plot "$T/e.png"
 [ -z "$(ls "$T" | grep -vE '^(a|b|d)\.|^out$|^err$')" ] || fail "left behind: $(ls "$T")"
+
+# Markers that have a place on the face are shown on it, above the curves; curves alone have none.
+height() { grep -o 'height="[0-9.]*' "$1" | head -1 | tr -dc 0-9; }
+expect 0 "$B/fapenc" "$take" --markers $markers -o "$T/f.fap" --plot "$T/f.svg"
+expect 0 "$B/fapenc" "$T/f.fap" -o "$T/g.fba" --plot "$T/g.svg"
+[ "$(height "$T/f.svg")" -ge $(($(height "$T/g.svg") + 600)) ] || fail "no map of the markers"
+[ "$(grep -c '<image' "$T/f.svg")" -ge 2 ] || fail "the map has no face"
