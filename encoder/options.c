@@ -20,7 +20,8 @@ static const char help[] =
     "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; -o OUT.csv: ARKit's "
     "coefficients\n"
     "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
-    "       fapenc track VIDEO --init POINTS.csv -o TAKE.trc   dots in a video to a take; fapenc track --help\n"
+    "       fapenc track VIDEO --init POINTS.csv -o TAKE.trc   dots in a video to a take; fapenc track "
+    "--help\n"
     "\n"
     "TAKE is a marker capture: C3D, TRC, Vicon Nexus or OptiTrack Motive CSV, or a table with NAME_x, "
     "NAME_y, NAME_z\n"
@@ -39,6 +40,8 @@ static const char help[] =
     "      --fps R           frames a second of the output (25)\n"
     "      --take-rate R     frames a second of the take, where the file is silent or wrong\n"
     "      --rigid A,B,C     markers that follow the head\n"
+    "      --head M          rigid; nose: its tip carries the head, the rigid markers turn it (Zhu's "
+    "thesis)\n"
     "      --smooth M        auto, none, a cut-off frequency in Hz, or zhu (the mean of three frames)\n"
     "      --fill M          none, spline (gaps to 0.2 s), take (longer ones by the other markers), all\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
@@ -103,6 +106,7 @@ enum {
     OPT_FPS,
     OPT_TAKE_RATE,
     OPT_RIGID,
+    OPT_HEAD,
     OPT_SMOOTH,
     OPT_FILL,
     OPT_START,
@@ -144,6 +148,7 @@ static const struct option long_options[] = {
     { "fps", required_argument, NULL, OPT_FPS },
     { "take-rate", required_argument, NULL, OPT_TAKE_RATE },
     { "rigid", required_argument, NULL, OPT_RIGID },
+    { "head", required_argument, NULL, OPT_HEAD },
     { "smooth", required_argument, NULL, OPT_SMOOTH },
     { "fill", required_argument, NULL, OPT_FILL },
     { "start", required_argument, NULL, OPT_START },
@@ -228,6 +233,15 @@ static int parse_unit(options *opt, const char *text)
 {
     opt->mm_per_unit = fap_take_unit_mm(text);
     return opt->mm_per_unit > 0 || number(opt, "unit", text, 1e-6, 1e6, &opt->mm_per_unit);
+}
+
+static int parse_head(options *opt, const char *text)
+{
+    opt->capture.head = strcmp(text, "nose") ? FAP_HEAD_RIGID : FAP_HEAD_NOSE;
+    if (opt->capture.head == FAP_HEAD_NOSE || !strcmp(text, "rigid"))
+        return 1;
+    tool_error("--head %s: expected rigid or nose", text);
+    return usage(opt);
 }
 
 static int parse_smooth(options *opt, const char *text)
@@ -327,6 +341,7 @@ static int parse_option(options *opt, int c, const char *arg)
     case OPT_FPS: opt->rate_given = 1; return number(opt, "fps", arg, 1, 1000, &opt->capture.rate_hz);
     case OPT_TAKE_RATE: return number(opt, "take-rate", arg, 0.5, 20000, &opt->take_rate_hz);
     case OPT_RIGID: opt->capture.rigid = unless_auto(arg); return 1;
+    case OPT_HEAD: return parse_head(opt, arg);
     case OPT_SMOOTH: return parse_smooth(opt, arg);
     case OPT_FILL: return parse_fill(opt, arg);
     case OPT_START: return number(opt, "start", arg, 0, 1e6, &opt->capture.start_s);

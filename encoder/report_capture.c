@@ -51,7 +51,7 @@ static void say_markers(const run_report *rep, const fap_capture_report *r)
         tool_note("  not used: %s", unknown.text);
 }
 
-static void say_head(const run_report *rep, const fap_capture_report *r)
+static void say_head(const options *opt, const run_report *rep, const fap_capture_report *r)
 {
     line rigid = { "", 0 };
 
@@ -60,6 +60,9 @@ static void say_head(const run_report *rep, const fap_capture_report *r)
     if (r->rigid_count)
         tool_note("head: rigid markers %s (%s), %.2f mm rms", rigid.text, fap_origin_name(r->rigid_origin),
                   r->rigid_rms_mm);
+    if (opt->capture.head == FAP_HEAD_NOSE)
+        tool_note("  carried by the nose's tip, which is hidden in %u frames",
+                  (unsigned)r->frames_without_nose);
     if (r->frames_without_head)
         tool_note("  not seen in %u frames", (unsigned)r->frames_without_head);
     tool_note("axes: %s of the take%s, turned by %.1f degrees", r->axes, r->axes_found ? ", found" : "",
@@ -195,7 +198,7 @@ void report_capture_say(const options *opt, const run_report *rep)
     say_notes(rep, r);
     say_markers(rep, r);
     say_cleaning(rep, r);
-    say_head(rep, r);
+    say_head(opt, rep, r);
     say_fapu(r);
     tool_note("%s: %u frames at %g Hz", opt->output, (unsigned)r->frames, r->rate_hz);
     say_faps(rep, r);
@@ -283,7 +286,7 @@ static void json_cleaning(json *j, const run_report *rep, const fap_capture_repo
     json_close(j, '}');
 }
 
-static void json_head(json *j, const run_report *rep, const fap_capture_report *r)
+static void json_head(json *j, const options *opt, const run_report *rep, const fap_capture_report *r)
 {
     json_open(j, "head", '{');
     json_string(j, "origin", fap_origin_name(r->rigid_origin));
@@ -292,6 +295,7 @@ static void json_head(json *j, const run_report *rep, const fap_capture_report *
         json_string(j, NULL, rep->take->name[r->rigid[i]]);
     json_close(j, ']');
     json_number(j, "rms_mm", r->rigid_rms_mm);
+    json_string(j, "carried_by", opt->capture.head == FAP_HEAD_NOSE ? "nose" : "rigid");
     json_integer(j, "frames_not_seen", r->frames_without_head);
     json_string(j, "axes", r->axes);
     json_bool(j, "axes_found", r->axes_found);
@@ -393,7 +397,7 @@ void report_capture_json(const options *opt, const run_report *rep)
     report_written_json(&j, opt, &rep->written);
     json_markers(&j, rep, r);
     json_cleaning(&j, rep, r);
-    json_head(&j, rep, r);
+    json_head(&j, opt, rep, r);
     json_neutral(&j, r);
     json_faps(&j, rep, r);
     json_notes(&j, rep, r);

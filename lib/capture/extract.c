@@ -117,7 +117,7 @@ static void extract_fap(performance *p, int fap)
     int stands_in;
     const int point = point_for(p, fap, &stands_in);
 
-    if (point < 0 || !p->known[point] || !is_measurable(p, fap))
+    if (point < 0 || !p->known[point] || point == head_carrier(p) || !is_measurable(p, fap))
         return;
     p->report->fap[fap].point = (int8_t)point;
     p->report->fap[fap].origin = p->origin[point];

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * Head motion: the markers that follow the skull, and the pose they give in each frame. Named markers are
- * taken as they are. Those of a marker set are a start: they lie on skin too (a forehead marker rises with
- * the brow), so others that carry no FAP and keep their place join in, and each is weighted by how well it
- * keeps it.
+ * taken as they are, but for one that slips. Those of a marker set are a start: they lie on skin too (a forehead
+ * marker rises with the brow), so others that carry no FAP and keep their place join in, and each is weighted by
+ * how well it keeps it. Sources: Lorenzo et al. 4.2 (rigid markers), Zhu 2006 chapter 6 (the nose's tip).
  */
+#include <math.h>
+
 #include "capture/performance.h"
 
 /* Lips, jaw and tongue may be near one another for a whole take and still are no head. */
@@ -38,12 +40,16 @@ static int is_free(const performance *p, uint32_t point)
            is_not_of_mouth(p, point);
 }
 
+/* Of more points than there is room for, as many spread evenly. */
 static uint32_t list_points(const performance *p, int (*wanted)(const performance *, uint32_t), uint16_t *out)
 {
-    uint32_t n = 0;
+    uint32_t all = 0, met = 0, n = 0;
 
-    for (uint32_t i = 0; i < p->take->point_count && n < RIGID_MAX_POINTS; i++)
-        if (wanted(p, i))
+    for (uint32_t i = 0; i < p->take->point_count; i++)
+        all += wanted(p, i) != 0;
+    const uint32_t room = all < RIGID_MAX_POINTS ? all : RIGID_MAX_POINTS;
+    for (uint32_t i = 0; i < p->take->point_count && n < room; i++)
+        if (wanted(p, i) && (uint64_t)met++ * room >= (uint64_t)n * all)
             out[n++] = (uint16_t)i;
     return n;
 }
@@ -53,10 +59,47 @@ static int is_rigid(const performance *p, uint32_t point)
     return (p->report->markers.role[point] & FAP_MARKER_RIGID) != 0;
 }
 
+static void note_left_out(performance *p, const rigid_body *whole)
+{
+    for (uint32_t i = 0; i < whole->count; i++) {
+        uint32_t k = 0;
+        while (k < p->body.count && p->body.point[k] != whole->point[i])
+            k++;
+        if (k == p->body.count)
+            performance_note(p, "%s does not keep its place among the rigid markers: it is left out",
+                             p->take->name[whole->point[i]]);
+    }
+}
+
+/*
+ * A cap that is knocked, a dot that comes off: its weight falls, but what is left of it still turns the head. When
+ * most of the others keep their distances, they do without it.
+ */
+static void drop_slipped(performance *p)
+{
+    static const double slipped_mm = 2;
+    const rigid_body whole = p->body;
+    double worst = 0;
+
+    for (uint32_t i = 0; i < whole.count; i++)
+        worst = fmax(worst, rigid_body_stray(&whole, i));
+    if (whole.count < 4 || worst < slipped_mm)
+        return;
+    if (rigid_body_find(&p->body, p->take, whole.point, whole.count) && 2 * p->body.count > whole.count) {
+        rigid_body_extend(&p->body, p->take, whole.point, whole.count, slipped_mm);
+        note_left_out(p, &whole);
+    } else {
+        p->body = whole;
+    }
+}
+
 static int learn_named(performance *p)
 {
     p->body.count = list_points(p, is_rigid, p->body.point);
-    return p->body.count >= 3 && rigid_body_learn(&p->body, p->take);
+    if (p->body.count < 3 || !rigid_body_learn(&p->body, p->take))
+        return 0;
+    drop_slipped(p);
+    return 1;
 }
 
 /* First among points that carry no FAP, then among all but the mouth's. */
@@ -134,6 +177,68 @@ static void write_report(performance *p)
     r->rigid_rms_mm = p->has_body ? p->body.rms_mm : 0;
 }
 
+/* --- carried by the nose --- */
+
+int head_carrier(const performance *p)
+{
+    const int nose = fap_point_by_name("9.3");
+    return p->cfg->head == FAP_HEAD_NOSE && p->report->markers.point[nose].count ? nose : -1;
+}
+
+static int nose_in_body(const performance *p, uint32_t frame, uint32_t nose, double seen[3], double model[3])
+{
+    const float *v = fap_take_sample(p->take, frame, nose);
+
+    if (!v || !p->posed[frame])
+        return 0;
+    for (int axis = 0; axis < 3; axis++)
+        seen[axis] = v[axis];
+    rigid_undo(&p->pose[frame], seen, model);
+    return 1;
+}
+
+/* Moves the pose until the nose is where it is in the mean. */
+static void carry(rigid_pose *pose, const double mean[3], const double seen[3])
+{
+    double there[3];
+
+    rigid_apply(pose, mean, there);
+    for (int axis = 0; axis < 3; axis++)
+        pose->t[axis] += seen[axis] - there[axis];
+}
+
+static void follow_nose(performance *p, uint32_t nose)
+{
+    double mean[3] = { 0 }, seen[3], model[3];
+    uint32_t n = 0;
+
+    for (uint32_t f = 0; f < p->frames; f++) {
+        if (!nose_in_body(p, f, nose, seen, model))
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            mean[axis] += model[axis];
+        n++;
+    }
+    for (int axis = 0; axis < 3 && n; axis++)
+        mean[axis] /= n;
+    for (uint32_t f = 0; f < p->frames; f++)
+        if (nose_in_body(p, f, nose, seen, model))
+            carry(&p->pose[f], mean, seen);
+    p->report->frames_without_nose = p->frames - n;
+}
+
+static fap_err move_with_nose(performance *p)
+{
+    const int nose = head_carrier(p);
+
+    if (p->cfg->head != FAP_HEAD_NOSE)
+        return FAP_OK;
+    if (nose < 0)
+        return performance_fail(p, FAP_E_ARG, "--head nose: no marker is on the tip of the nose (9.3)");
+    follow_nose(p, (uint32_t)p->report->markers.point[nose].index[0]);
+    return FAP_OK;
+}
+
 fap_err head_find(performance *p)
 {
     static const rigid_pose identity = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }, { 0 } };
@@ -150,7 +255,7 @@ fap_err head_find(performance *p)
     write_report(p);
     if (p->report->frames_without_head == p->frames)
         return performance_fail(p, FAP_E_DATA, "the rigid markers are never seen three at a time");
-    return FAP_OK;
+    return move_with_nose(p);
 }
 
 int head_still(const performance *p, uint32_t frame, uint32_t point, double out[3])

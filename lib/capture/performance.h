@@ -57,6 +57,9 @@ fap_err head_find(performance *p);
 /* A point of the take with the head's motion taken out, as if it were posed at @p rest. 0: not seen. */
 int head_still(const performance *p, uint32_t frame, uint32_t point, double out[3]);
 
+/* The feature point that carries the head instead of the rigid markers; -1: none. */
+int head_carrier(const performance *p);
+
 fap_err neutral_find(performance *p);
 fap_err axes_find(performance *p);
 /* Rings of markers get feature points by where they lie. */

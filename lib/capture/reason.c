@@ -42,6 +42,8 @@ const char *reason_for(const performance *p, int fap)
         return p->has_body ? "the head is never seen" : "no three markers keep their distances";
     if (info->point < 0)
         return "markers do not show it";
+    if (info->point == head_carrier(p))
+        return "the head is carried by this point (--head nose)";
     if (p->report->fap[fap].point >= 0)
         return "its markers are never seen together with the head";
     if (p->known[info->point] || (fap == FAP_DEPRESS_CHIN && p->report->fap[FAP_OPEN_JAW].coded))

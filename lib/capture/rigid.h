@@ -36,9 +36,14 @@ typedef struct rigid_body {
 
 /* Shape and weights from the take; the points are set. @return 0 when they form no triangle in any frame. */
 int rigid_body_learn(rigid_body *body, const fap_take *take);
+/* How far one of its points strays from its place, rms, mm; what its weight comes from. */
+double rigid_body_stray(const rigid_body *body, uint32_t i);
 /* Where the body is in a frame; 0 when too little of it is seen. */
 int rigid_body_pose(const rigid_body *body, const fap_take *take, uint32_t frame, rigid_pose *pose);
-/* The largest group of @p candidates that keep their distances over time; 0 when there is none of three. */
+/*
+ * The largest group of @p candidates that keep their distances over time; 0 when there is none of three. Every pair is tried
+ * as a start and grown by whatever fits best: what RANSAC would do by lot, complete, as 64 points are few.
+ */
 int rigid_body_find(rigid_body *body, const fap_take *take, const uint16_t *candidate, uint32_t count);
 /* Adds those of @p candidates that stay within @p limit_mm of their place on the body. */
 void rigid_body_extend(rigid_body *body, const fap_take *take, const uint16_t *candidate, uint32_t count,

@@ -44,6 +44,9 @@ double bench_gap_fill_error_mm_5(void);
 double bench_gap_fill_error_mm_30(void);
 double bench_gap_fill_error_mm_120(void);
 
+/* How far rigid markers still move when the head's motion is out. */
+double bench_head_residual_mm(void);
+
 /* Markers to FAPs to the default face to markers: along axes that have a FAP, along the others, and what coding adds. */
 double bench_reencode_error_mm(void);
 double bench_reencode_axes_mm(void);

@@ -24,6 +24,13 @@ expect 0 "$B/fapenc" "$take" --markers tests/assets/demo_markers.csv --fps 25 -o
 [ ! -s "$T/err" ] || fail "--quiet speaks: $(cat "$T/err")"
 cmp -s <(tail -n +2 "$T/a.fap") <(tail -n +2 "$T/b.fap") || fail "two runs differ"
 
+# The nose's tip may carry the head; its own FAPs are then not sent.
+expect 0 "$B/fapenc" "$take" --markers tests/assets/demo_markers.csv --head nose -o "$T/n.fap"
+says "carried by the nose's tip"
+says 'not sent: .*64.*--head nose'
+[ "$(sed -n 2p "$T/n.fap" | cut -d' ' -f48)" = 1 ] || fail "--head nose loses the head's turning"
+expect 2 "$B/fapenc" "$take" --head sideways -o "$T/n.fap"
+
 # Cut short: named, and no output.
 head -c 3000 "$take" >"$T/cut.c3d"
 rm -f "$T/c.fap"

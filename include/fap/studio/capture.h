@@ -25,8 +25,14 @@ typedef enum fap_fill {
     FAP_FILL_NONE,   /**< nothing: the FAP is masked out there */
     FAP_FILL_SPLINE, /**< gaps up to 0.2 s by a curve */
     FAP_FILL_TAKE,   /**< longer ones too, where the take's other markers tell */
-    FAP_FILL_ALL,    /**< the rest by the databank, if there is one, or eased from place to place with the head */
+    FAP_FILL_ALL, /**< the rest by the databank, if there is one, or eased from place to place with the head */
 } fap_fill;
+
+/** What is taken for the head's motion; its turning is always that of the rigid markers. */
+typedef enum fap_head {
+    FAP_HEAD_RIGID, /**< the rigid markers turn and carry it */
+    FAP_HEAD_NOSE, /**< the tip of the nose carries it, as in Zhu's normalisation; its own FAPs are not sent then */
+} fap_head;
 
 /** Start from fap_capture_config_init(). */
 typedef struct fap_capture_config {
@@ -42,8 +48,10 @@ typedef struct fap_capture_config {
     size_t markers_size;
     double smooth_hz; /**< 0: as the rates ask for; > 0: low-pass; < 0: none */
     fap_fill fill;    /**< FAP_FILL_ALL */
-    const fap_bank *bank; /**< NULL: the built-in face; the markers are placed on it, kept for the call only */
-    uint8_t average;  /**< 0; 1: Zhu's mean of three frames instead of the search for spikes */
+    const fap_bank
+        *bank;       /**< NULL: the built-in face; the markers are placed on it, kept for the call only */
+    uint8_t average; /**< 0; 1: Zhu's mean of three frames instead of the search for spikes */
+    fap_head head;   /**< FAP_HEAD_RIGID */
 } fap_capture_config;
 FAP_API void fap_capture_config_init(fap_capture_config *cfg);
 
@@ -103,8 +111,10 @@ typedef struct fap_capture_report {
     uint32_t rigid_count;
     int16_t rigid[FAP_CAPTURE_MAX_RIGID]; /**< points of the take */
     double rigid_rms_mm;
-    char axes[16];        /**< nearest axes of the take: "x y z" of the head */
-    double axes_turn_deg; /**< how far the head's axes are turned from those */
+    uint32_t
+        frames_without_nose; /**< FAP_HEAD_NOSE: carried by the rigid markers, as the nose's is not seen */
+    char axes[16];           /**< nearest axes of the take: "x y z" of the head */
+    double axes_turn_deg;    /**< how far the head's axes are turned from those */
     uint8_t axes_found, sides_swapped;
     double neutral_s; /**< middle of the neutral stretch, from the start of the take */
     uint8_t neutral_found;
@@ -113,9 +123,9 @@ typedef struct fap_capture_report {
     double fapu_scale;         /**< measured over typical; 1 where nothing could be measured */
     fap_capture_fap fap[FAP_COUNT + 1];
     fap_markers markers;
-    uint32_t fitted;       /**< points of the take mapped by where they lie, as no label is known; 0: by labels */
+    uint32_t fitted; /**< points of the take mapped by where they lie, as no label is known; 0: by labels */
     uint32_t fitted_usual; /**< of these, on feature points that markers usually are put on */
-    double fit_mm;         /**< how far they are from there on the bank's face, its features bent to fit: RMS */
+    double fit_mm; /**< how far they are from there on the bank's face, its features bent to fit: RMS */
     uint32_t note_count;
     char note[FAP_TAKE_MAX_NOTES][FAP_TAKE_NOTE_SIZE];
 } fap_capture_report;
