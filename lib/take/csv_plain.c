@@ -5,6 +5,7 @@
  * ignored. Source: tables as published by blenderFace and as research code writes them.
  */
 #include "take/grid.h"
+#include "take/picture.h"
 
 /* A column heading taken apart. */
 typedef struct heading {
@@ -160,6 +161,39 @@ static int plain_claims(const uint8_t *data, size_t size)
     return seen[0] && seen[1] && seen[2] ? 30 : 0;
 }
 
+static text trailing_digits(text t)
+{
+    size_t n = 0;
+
+    while (n < t.length && is_digit(t.start[t.length - 1 - n]))
+        n++;
+    return (text){ t.start + t.length - n, n };
+}
+
+static int same_front(text a, text b)
+{
+    const size_t n = a.length - trailing_digits(a).length;
+
+    if (n != b.length - trailing_digits(b).length)
+        return 0;
+    for (size_t i = 0; i < n; i++)
+        if (a.start[i] != b.start[i])
+            return 0;
+    return 1;
+}
+
+/* landmark_0 to landmark_477: where all points of a known model are numbers with one word in front, the word is dropped. */
+static void drop_front(take_grid *g)
+{
+    if (g->point_count != 68 && g->point_count != 468 && g->point_count != 478)
+        return;
+    for (uint32_t p = 0; p < g->point_count; p++)
+        if (!trailing_digits(g->point[p].name).length || !same_front(g->point[0].name, g->point[p].name))
+            return;
+    for (uint32_t p = 0; p < g->point_count; p++)
+        g->point[p].name = trailing_digits(g->point[p].name);
+}
+
 static fap_err plain_read(take_source *src, fap_take **take)
 {
     text_lines lines = text_open(src->data, src->size);
@@ -176,8 +210,12 @@ static fap_err plain_read(take_source *src, fap_take **take)
     add_points(g);
     g->body = lines;
     scale_by_picture(g);
+    drop_front(g);
     const fap_err err = grid_read(src, g, "table", take);
+    const int shape_unknown = g->mm_per_unit == 0;
     grid_close(src, g);
+    if (err == FAP_OK && shape_unknown && picture_is_fractions(*take))
+        picture_settle(*take, 0);
     return err;
 }
 

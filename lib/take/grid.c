@@ -135,8 +135,7 @@ static void read_rows(take_grid *g, const row_census *c, fap_take *take)
     }
 }
 
-/* Times are rounded to milliseconds in many files, so a rate close to a usual one is that one. */
-static double snap_rate(double hz)
+double take_usual_rate(double hz)
 {
     static const double usual[] = { 23.976, 24, 25, 29.97, 30, 50, 59.94, 60, 90, 100, 120, 200, 240 };
 
@@ -153,7 +152,7 @@ static void settle_rate(const take_grid *g, const row_census *c, fap_take *take)
 {
     static const double fastest_hz = 600;
     const double length_s = c->last_s - c->first_s;
-    const double timed = c->timed && length_s > 0 ? snap_rate((take->frame_count - 1) / length_s) : 0;
+    const double timed = c->timed && length_s > 0 ? take_usual_rate((take->frame_count - 1) / length_s) : 0;
 
     take->rate_hz = g->rate_hz > 0 ? g->rate_hz : timed;
     if (take->rate_hz > fastest_hz && !(g->rate_hz > 0)) {

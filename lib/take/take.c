@@ -12,9 +12,9 @@
 #include "take/take_driver.h"
 
 static const take_driver *const drivers[] = {
-    &take_driver_c3d,          &take_driver_trc,     &take_driver_nexus,
-    &take_driver_motive,       &take_driver_plain,   &take_driver_openface,
-    &take_driver_coefficients, &take_driver_ema_pos, &take_driver_ema_mat,
+    &take_driver_c3d,     &take_driver_trc,       &take_driver_nexus,        &take_driver_motive,
+    &take_driver_plain,   &take_driver_openface,  &take_driver_coefficients, &take_driver_ema_pos,
+    &take_driver_ema_mat, &take_driver_landmarks,
 };
 
 /* A coordinate past this is no measurement, and squaring it must not overflow a float. */
@@ -436,7 +436,7 @@ fap_err fap_take_read(fap_take **take, const void *data, size_t size, const fap_
     const fap_err err = driver ? read_with(driver, &src, cfg, take)
                                : take_fail(&src, FAP_E_UNKNOWN_FORMAT,
                                            "neither C3D, TRC, Nexus CSV, Motive CSV, OpenFace CSV, EMA "
-                                           "(.pos, .mat) nor a table with NAME_x, NAME_y, "
+                                           "(.pos, .mat), landmarks as JSON nor a table with NAME_x, NAME_y, "
                                            "NAME_z columns");
     if (err != FAP_OK && where)
         memcpy(where, src.where, sizeof src.where);

@@ -29,7 +29,7 @@ typedef struct take_driver {
 
 extern const take_driver take_driver_c3d, take_driver_trc, take_driver_nexus, take_driver_motive,
     take_driver_plain, take_driver_openface, take_driver_coefficients, take_driver_ema_pos,
-    take_driver_ema_mat;
+    take_driver_ema_mat, take_driver_landmarks;
 
 /* Says where and returns @p err. */
 fap_err take_fail(take_source *src, fap_err err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
@@ -42,5 +42,7 @@ void take_finish_names(fap_take *take);
 /* Exact 0,0,0 means missing, except for one point that is 0 in every frame: the reference of a relative take.
  */
 void take_drop_zeros(fap_take *take);
+/* Times are rounded to milliseconds in many files, so a rate close to a usual one is that one. */
+double take_usual_rate(double hz);
 
 #endif

@@ -1,0 +1,534 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/*
+ * Face landmarks as JSON, as scripts around MediaPipe and its kin in browsers write them; there is no standard. A file is a
+ * list of frames, bare or under a key, or one object a line. A frame is a list of points, a list of faces of which the first
+ * is taken, or an object that has one of both beside its time. A point is {"x":, "y":, "z":} or [x, y, z]. Blendshapes beside
+ * the points are left alone. Source: the shapes of MediaPipe's results in Python and JavaScript.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "take/json_text.h"
+#include "take/picture.h"
+
+/* One pass over the file; without a take it only counts. */
+typedef struct pass {
+    fap_take *take;
+    double *time; /* [frames], in the file's unit, or a frame's number; NAN: unknown */
+    uint32_t frames, points, faces_left_out, flat;
+    double width, height, rate_hz;
+    double time_unit_s; /* 0: the key does not say */
+    int timed;          /* not only numbered */
+} pass;
+
+static int is_one_of(text t, const char *const *words)
+{
+    while (*words && !text_is(t, *words))
+        words++;
+    return *words != NULL;
+}
+
+static const char *const frame_lists[] = { "frames", "results", "data", "detections", "landmarks_per_frame",
+                                           NULL };
+static const char *const face_keys[] = { "landmarks",
+                                         "faceLandmarks",
+                                         "face_landmarks",
+                                         "multiFaceLandmarks",
+                                         "multi_face_landmarks",
+                                         "landmark",
+                                         "keypoints",
+                                         "scaledMesh",
+                                         "points",
+                                         "faces",
+                                         "face",
+                                         NULL };
+static const char *const width_keys[] = { "width",       "image_width", "imageWidth",
+                                          "video_width", "videoWidth",  NULL };
+static const char *const height_keys[] = { "height",       "image_height", "imageHeight",
+                                           "video_height", "videoHeight",  NULL };
+static const char *const rate_keys[] = { "fps", "frame_rate", "frameRate", "framerate", NULL };
+static const char *const time_keys[] = { "timestamp", "time", "t", NULL };
+static const char *const ms_keys[] = { "timestamp_ms", "timestampMs", "time_ms", "timeMs", NULL };
+static const char *const second_keys[] = { "timestamp_s", "time_s", "seconds", NULL };
+static const char *const number_keys[] = { "frame",       "frame_index", "frameIndex", "frame_number",
+                                           "frameNumber", "frame_id",    "index",      NULL };
+static const char *const us_keys[] = { "timestamp_us", "timestampUs", "time_us", NULL };
+
+/* --- what comes next --- */
+
+static int opens_with(json_text j, char bracket)
+{
+    return json_text_enter(&j, bracket);
+}
+
+static int is_number_next(json_text j)
+{
+    double v;
+    return json_text_number(&j, &v);
+}
+
+/* A point is an object with an x, or a short list that begins with a number. */
+static int is_point(json_text j)
+{
+    int first = 1;
+    text key;
+
+    if (json_text_enter(&j, '['))
+        return is_number_next(j);
+    if (!json_text_enter(&j, '{'))
+        return 0;
+    while (json_text_next(&j, '}', &first) && json_text_key(&j, &key)) {
+        if (text_is(key, "x"))
+            return 1;
+        json_text_skip(&j);
+    }
+    return 0;
+}
+
+static int is_point_list(json_text j)
+{
+    return json_text_enter(&j, '[') && is_point(j);
+}
+
+/* --- a frame --- */
+
+static int read_triple(json_text *j, double v[3])
+{
+    int known = 0, first = 1;
+    double ignored;
+
+    json_text_enter(j, '[');
+    for (int axis = 0; json_text_next(j, ']', &first) && !j->bad; axis++)
+        if (json_text_number(j, axis < 3 ? &v[axis] : &ignored) && axis < 3)
+            known |= 1 << axis;
+    return known;
+}
+
+static int read_named(json_text *j, double v[3])
+{
+    int known = 0, first = 1;
+    text key;
+
+    json_text_enter(j, '{');
+    while (json_text_next(j, '}', &first) && json_text_key(j, &key)) {
+        const int axis = key.length == 1 && *key.start >= 'x' && *key.start <= 'z' ? *key.start - 'x' : -1;
+        if (axis < 0)
+            json_text_skip(j);
+        else if (json_text_number(j, &v[axis]))
+            known |= 1 << axis;
+    }
+    return known;
+}
+
+/* A frame that breaks off is not counted, so there is no row for it. */
+static int has_row(const pass *p)
+{
+    return p->take && p->frames < p->take->frame_count;
+}
+
+static void read_point(json_text *j, pass *p, uint32_t point)
+{
+    enum { XY = 3 };
+    double v[3] = { 0 };
+    int known = 0;
+
+    if (opens_with(*j, '['))
+        known = read_triple(j, v);
+    else if (opens_with(*j, '{'))
+        known = read_named(j, v);
+    else
+        json_text_skip(j);
+    if (!has_row(p) || point >= p->take->point_count || (known & XY) != XY)
+        return;
+    p->flat += known == XY;
+    fap_take_set(p->take, p->frames, point, (const float[3]){ (float)v[0], (float)v[1], (float)v[2] });
+}
+
+static void read_points(json_text *j, pass *p)
+{
+    uint32_t n = 0;
+    int first = 1;
+
+    json_text_enter(j, '[');
+    for (; json_text_next(j, ']', &first) && !j->bad; n += n <= FAP_TAKE_MAX_POINTS)
+        read_point(j, p, n);
+    if (!j->bad && n > p->points)
+        p->points = n;
+}
+
+/* A list of points; or faces, lists or objects that hold one. Bounded: a face in a face in a face is none. */
+static void read_face(json_text *j, pass *p, int depth)
+{
+    enum { DEEPEST = 3 };
+    int first = 1, faces = 0;
+    text key;
+
+    if (is_point_list(*j)) {
+        read_points(j, p);
+    } else if (depth < DEEPEST && json_text_enter(j, '[')) {
+        for (; json_text_next(j, ']', &first) && !j->bad; faces++)
+            if (faces)
+                json_text_skip(j);
+            else
+                read_face(j, p, depth + 1);
+        p->faces_left_out += faces > 1;
+    } else if (depth < DEEPEST && json_text_enter(j, '{')) {
+        while (json_text_next(j, '}', &first) && json_text_key(j, &key))
+            if (is_one_of(key, face_keys))
+                read_face(j, p, depth + 1);
+            else
+                json_text_skip(j);
+    } else {
+        json_text_skip(j);
+    }
+}
+
+static void put_time(pass *p, double t)
+{
+    if (has_row(p))
+        p->time[p->frames] = t;
+}
+
+static void read_time(json_text *j, pass *p, double unit_s)
+{
+    double t;
+
+    if (!json_text_number(j, &t))
+        return;
+    p->time_unit_s = unit_s;
+    p->timed = 1;
+    put_time(p, t);
+}
+
+/* A frame's number stands in for its time as long as there is none. */
+static void read_number(json_text *j, pass *p)
+{
+    double number;
+
+    if (json_text_number(j, &number) && !p->timed)
+        put_time(p, number);
+}
+
+/* A number that the file or its frames may give; 0: the key is another. */
+static int read_fact(json_text *j, pass *p, text key)
+{
+    if (is_one_of(key, width_keys))
+        json_text_number(j, &p->width);
+    else if (is_one_of(key, height_keys))
+        json_text_number(j, &p->height);
+    else if (is_one_of(key, rate_keys))
+        json_text_number(j, &p->rate_hz);
+    else
+        return 0;
+    return 1;
+}
+
+static int read_frame_time(json_text *j, pass *p, text key)
+{
+    if (is_one_of(key, ms_keys))
+        read_time(j, p, 1e-3);
+    else if (is_one_of(key, us_keys))
+        read_time(j, p, 1e-6);
+    else if (is_one_of(key, second_keys))
+        read_time(j, p, 1);
+    else if (is_one_of(key, time_keys))
+        read_time(j, p, 0);
+    else if (is_one_of(key, number_keys))
+        read_number(j, p);
+    else
+        return 0;
+    return 1;
+}
+
+static void read_frame_object(json_text *j, pass *p)
+{
+    int first = 1;
+    text key;
+
+    json_text_enter(j, '{');
+    while (json_text_next(j, '}', &first) && json_text_key(j, &key)) {
+        if (is_one_of(key, face_keys))
+            read_face(j, p, 0);
+        else if (!read_fact(j, p, key) && !read_frame_time(j, p, key))
+            json_text_skip(j);
+    }
+}
+
+static void read_frame(json_text *j, pass *p)
+{
+    if (opens_with(*j, '{'))
+        read_frame_object(j, p);
+    else
+        read_face(j, p, 0);
+    if (!j->bad && p->frames < FAP_TAKE_MAX_SAMPLES)
+        p->frames++;
+}
+
+static void read_frames(json_text *j, pass *p)
+{
+    int first = 1;
+
+    if (!json_text_enter(j, '[')) {
+        json_text_skip(j);
+        return;
+    }
+    while (json_text_next(j, ']', &first) && !j->bad)
+        read_frame(j, p);
+}
+
+/* --- the file --- */
+
+/* Whether an object holds frames, rather than being one: a list under a frames' key, or lists of points in a list longer
+ * than a picture has faces. */
+static int holds_frames(json_text j, text *where)
+{
+    enum { CROWD = 8 };
+    int first = 1;
+
+    json_text_enter(&j, '{');
+    while (json_text_next(&j, '}', &first) && json_text_key(&j, where)) {
+        const int list = opens_with(j, '[');
+        if (list && is_one_of(*where, frame_lists))
+            return 1;
+        if (!list || is_point_list(j) || !is_one_of(*where, face_keys)) {
+            json_text_skip(&j);
+            continue;
+        }
+        int count = 0, inner = 1;
+        json_text_enter(&j, '[');
+        for (; json_text_next(&j, ']', &inner) && !j.bad; count++)
+            json_text_skip(&j);
+        if (count > CROWD)
+            return 1;
+    }
+    return 0;
+}
+
+static int same_text(text a, text b)
+{
+    return a.length == b.length && !memcmp(a.start, b.start, a.length);
+}
+
+static void read_frames_object(json_text *j, pass *p, text frames)
+{
+    int first = 1;
+    text key;
+
+    json_text_enter(j, '{');
+    while (json_text_next(j, '}', &first) && json_text_key(j, &key)) {
+        if (same_text(key, frames) && !p->frames)
+            read_frames(j, p);
+        else if (!read_fact(j, p, key))
+            json_text_skip(j);
+    }
+}
+
+/* A list, an object of frames, or frames one behind the other (JSON lines). */
+static json_text read_file(json_text j, pass *p)
+{
+    text frames;
+
+    if (opens_with(j, '[')) {
+        if (is_point_list(j))
+            read_frame(&j, p);
+        else
+            read_frames(&j, p);
+        while (opens_with(j, '[') && !j.bad) /* JSON lines of lists */
+            read_frame(&j, p);
+        return j;
+    }
+    if (holds_frames(j, &frames))
+        read_frames_object(&j, p, frames);
+    else
+        while (opens_with(j, '{') && !j.bad)
+            read_frame(&j, p);
+    return j;
+}
+
+static int landmarks_claim(const uint8_t *data, size_t size)
+{
+    static const char *const words[] = { "andmark\"",  "andmarks\"",   "\"x\"",
+                                         "eypoints\"", "scaledMesh\"", "[[[" };
+    enum { REACH = 1 << 16 };
+    const json_text j = json_text_open(data, size);
+    const size_t reach = (size_t)(j.end - j.at) < REACH ? (size_t)(j.end - j.at) : REACH;
+
+    if (!opens_with(j, '[') && !opens_with(j, '{'))
+        return 0;
+    for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
+        const size_t length = strlen(words[w]);
+        for (size_t i = 0; i + length <= reach; i++)
+            if (!memcmp(j.at + i, words[w], length))
+                return 40;
+    }
+    return 0;
+}
+
+/* --- time --- */
+
+/* The unit of times whose key does not say it, from their usual step: nobody films below 2 or above 500 frames a second. */
+static double guess_unit_s(double step)
+{
+    return step >= 2000 ? 1e-6 : step >= 2 ? 1e-3 : 1;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Half of the steps are longer; 0: there are no times, or they run back. */
+static double median_step(const take_source *src, const double *time, uint32_t count)
+{
+    double *step = count > 1 ? fap_mem_calloc(&src->alloc, count - 1, sizeof *step) : NULL;
+    double median = 0;
+    int rising = step != NULL;
+
+    for (uint32_t i = 0; rising && i + 1 < count; i++) {
+        step[i] = time[i + 1] - time[i];
+        rising = step[i] >= 0; /* not for NAN */
+    }
+    if (rising) {
+        qsort(step, count - 1, sizeof *step, by_size);
+        median = step[(count - 2) / 2]; /* the lower one: gaps make steps longer, never shorter */
+    }
+    fap_mem_free(&src->alloc, step);
+    return median;
+}
+
+/* The same rows at their times: what a camera or a script left out becomes a gap. */
+static fap_err spread_rows(fap_take **take, const double *time, double per_frame, uint32_t frames)
+{
+    fap_take *t = *take, *wide;
+    const fap_err err = fap_take_create(&wide, t->point_count, frames, &t->alloc);
+
+    if (err != FAP_OK)
+        return err;
+    for (uint32_t f = 0; f < t->frame_count; f++) {
+        const double at = floor((time[f] - time[0]) / per_frame + 0.5);
+        const uint32_t to = at < frames ? (uint32_t)at : frames - 1;
+        for (uint32_t p = 0; p < t->point_count; p++) {
+            const float *v = fap_take_sample(t, f, p);
+            if (v)
+                fap_take_set(wide, to, p, v);
+        }
+    }
+    take_note(wide, "the times leave out %u frames; they are gaps", (unsigned)(frames - t->frame_count));
+    fap_take_close(take);
+    *take = wide;
+    return FAP_OK;
+}
+
+/* What the times of all rows say, jittery as they may be. */
+typedef struct clock_reading {
+    double step;     /* between rows, in the unit of the times; 0: they say nothing */
+    double rate_hz;  /* 0: unknown */
+    uint32_t frames; /* with those that are left out */
+} clock_reading;
+
+static double rate_of_times(const pass *p, const clock_reading *c, uint32_t rows, double length, int dropped)
+{
+    const double unit_s = p->time_unit_s > 0 ? p->time_unit_s : guess_unit_s(c->step);
+
+    if (!p->timed)
+        return p->rate_hz / c->step; /* every second picture of a film has every second number */
+    return take_usual_rate(dropped ? 1 / (c->step * unit_s) : (rows - 1) / (length * unit_s));
+}
+
+static clock_reading read_clock(const take_source *src, const pass *p, uint32_t rows)
+{
+    static const double few = 0.02; /* where hardly anything is left out the mean is better than the median */
+    clock_reading c = { .step = median_step(src, p->time, rows), .rate_hz = p->rate_hz, .frames = rows };
+    const double length = c.step > 0 ? p->time[rows - 1] - p->time[0] : 0;
+
+    if (!(c.step > 0) || !isfinite(length / c.step))
+        return (clock_reading){ .rate_hz = p->rate_hz, .frames = rows };
+    const double frames = floor(length / c.step + 0.5) + 1;
+    const int dropped = p->timed ? frames > rows * (1 + few) : frames > rows;
+    c.rate_hz = rate_of_times(p, &c, rows, length, dropped);
+    if (dropped && frames < 4. * rows + 100) /* beyond it the times mean something else */
+        c.frames = (uint32_t)frames;
+    return c;
+}
+
+static fap_err settle_time(take_source *src, const pass *p, fap_take **take)
+{
+    const clock_reading c = read_clock(src, p, (*take)->frame_count);
+
+    if (c.frames > (*take)->frame_count) {
+        const fap_err err = spread_rows(take, p->time, c.step, c.frames);
+        if (err != FAP_OK)
+            return err;
+    }
+    (*take)->rate_hz = c.rate_hz;
+    if (p->timed && p->rate_hz > 0 && fabs(c.rate_hz - p->rate_hz) > 0.02 * p->rate_hz)
+        take_note(*take, "the file says %g frames a second, its times say %.4g; the times are used",
+                  p->rate_hz, c.rate_hz);
+    return FAP_OK;
+}
+
+/* --- reading --- */
+
+static void name_by_number(fap_take *take)
+{
+    for (uint32_t p = 0; p < take->point_count; p++) {
+        char name[16];
+        take_set_name(take, p, name, (size_t)snprintf(name, sizeof name, "%u", (unsigned)p));
+    }
+}
+
+static void note_oddities(fap_take *take, const pass *p, int bad)
+{
+    if (bad)
+        take_note(take, "the JSON breaks off or is damaged behind frame %u", (unsigned)p->frames);
+    if (p->faces_left_out)
+        take_note(take, "%u frames have more than one face; the first one is taken",
+                  (unsigned)p->faces_left_out);
+    if (p->flat)
+        take_note(take, "%u points have no z; they are taken as flat", (unsigned)p->flat);
+}
+
+static fap_err fill_take(take_source *src, json_text j, pass *p, fap_take **take)
+{
+    j = read_file(j, p);
+    name_by_number(*take);
+    const fap_err err = settle_time(src, p, take);
+    if (err != FAP_OK)
+        return err;
+    note_oddities(*take, p, j.bad);
+    (*take)->mm_per_unit = -1;
+    if (picture_is_fractions(*take))
+        picture_settle(*take, p->width > 0 ? p->height / p->width : 0);
+    return FAP_OK;
+}
+
+static fap_err landmarks_read(take_source *src, fap_take **take)
+{
+    const json_text j = json_text_open(src->data, src->size);
+    pass count = { 0 };
+
+    read_file(j, &count);
+    if (!count.points)
+        return take_fail(
+            src, FAP_E_NOT_FOUND,
+            "JSON without landmarks: looked for frames with lists of {\"x\", \"y\", \"z\"} under "
+            "landmarks, faceLandmarks, face_landmarks, keypoints ...; %u frames seen",
+            (unsigned)count.frames);
+    fap_err err = fap_take_create(take, count.points, count.frames, &src->alloc);
+    if (err != FAP_OK)
+        return take_fail(src, err, "JSON: no room for %u frames of %u points", (unsigned)count.frames,
+                         (unsigned)count.points);
+    pass fill = { .take = *take };
+    fill.time = fap_mem_calloc(&src->alloc, count.frames, sizeof *fill.time);
+    for (uint32_t f = 0; fill.time && f < count.frames; f++)
+        fill.time[f] = NAN;
+    err = fill.time ? fill_take(src, j, &fill, take) : FAP_E_NOMEM;
+    fap_mem_free(&src->alloc, fill.time);
+    return err;
+}
+
+const take_driver take_driver_landmarks = { "landmarks JSON", landmarks_claim, landmarks_read };
