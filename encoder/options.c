@@ -33,7 +33,9 @@ static const char help[] =
     "  -o, --output FILE     where the FAPs go\n"
     "      --markers MAP.csv marker to feature point, a line each: \"LMouthCorner,8.4\", \"Head1,rigid\", "
     "\"X,none\"\n"
-    "      --neutral N|auto  frame of the take that shows the face at rest, the first is 0; auto finds one\n"
+    "      --neutral N|T|auto    when the face is at rest: frame 120 of the take, the first is 0; 4.8s; the "
+    "mean of\n"
+    "                        120-135 or 4.8-5.4s; auto finds a moment\n"
     "      --fapu FILE|auto  the face's FAPU in millimetres, a line each: \"ES 62.5\"; auto measures\n"
     "      --axes XYZ|auto   the take's axes that are the head's left, up and forward, as in x-zy\n"
     "      --unit U          mm, cm, m, or the millimetres in one unit of the take\n"
@@ -216,17 +218,11 @@ static int whole_number(options *opt, const char *name, const char *text, int lo
 
 static int parse_neutral(options *opt, const char *text)
 {
-    double n = -1;
-
-    if (unless_auto(text) && !number(opt, "neutral", text, 0, 1e9, &n))
-        return 0;
-    if (n >= 0 && n != floor(n)) {
-        tool_error("--neutral %s: expected a frame number", text);
-        return usage(opt);
-    }
-    opt->capture.neutral_frame = (int64_t)n;
-    opt->neutral_given = 1;
-    return 1;
+    if (neutral_option_parse(&opt->neutral, text))
+        return 1;
+    tool_error("--neutral %s: expected a frame (120), a time (4.8s), a stretch (120-135, 4.8-5.4s) or auto",
+               text);
+    return usage(opt);
 }
 
 static int parse_unit(options *opt, const char *text)

@@ -7,6 +7,7 @@
 #include <fap/studio/capture.h>
 
 #include "common/gpio/spec.h"
+#include "encoder/neutral.h"
 
 typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT, COMMAND_BATCH } command;
 
@@ -17,7 +18,7 @@ typedef struct options {
     double take_rate_hz; /* 0: as the file says */
     double mm_per_unit;  /* 0: as the file says */
     int rate_given;      /* --fps was there */
-    int neutral_given;   /* --neutral was there: coefficients have a rest of their own otherwise */
+    neutral_option neutral;
     fap_capture_config capture;
     fap_encoder_config bits; /* how an .fba is coded; its rate is the frames' */
     const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */

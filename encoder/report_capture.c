@@ -67,7 +67,8 @@ static void say_head(const options *opt, const run_report *rep, const fap_captur
         tool_note("  not seen in %u frames", (unsigned)r->frames_without_head);
     tool_note("axes: %s of the take%s, turned by %.1f degrees", r->axes, r->axes_found ? ", found" : "",
               r->axes_turn_deg);
-    tool_note("neutral: %.2f s%s", r->neutral_s, r->neutral_found ? ", found" : "");
+    tool_note("neutral: %.2f s, mean of %.2f s%s", r->neutral_s, r->neutral_length_s,
+              r->neutral_found ? ", found" : ", given");
 }
 
 /* "2 spline, 1 motion": gaps of a marker by method. */
@@ -309,6 +310,7 @@ static void json_neutral(json *j, const fap_capture_report *r)
     json_open(j, "neutral", '{');
     json_number(j, "time_s", r->neutral_s);
     json_integer(j, "frame", (int64_t)(r->neutral_s * r->take_rate_hz + 0.5));
+    json_number(j, "length_s", r->neutral_length_s);
     json_bool(j, "found", r->neutral_found);
     json_close(j, '}');
     json_open(j, "fapu", '{');

@@ -170,6 +170,7 @@ static fap_err encode(const options *opt, run_report *rep)
     if (!(rep->take->rate_hz > 0))
         return fail(rep, FAP_E_ARG, opt->input,
                     "the take does not say its frame rate; give it with --take-rate");
+    neutral_option_frames(&opt->neutral, rep->take->rate_hz, &cfg.neutral_frame, &cfg.neutral_last);
     if (opt->fapu_path) {
         const fap_err err = fapu_file_read(opt->fapu_path, &fapu, where);
         if (err != FAP_OK)
@@ -212,13 +213,13 @@ static fap_err encode_coefficients(const options *opt, run_report *rep)
     cfg.end_s = opt->capture.end_s;
     cfg.smooth_hz = opt->capture.smooth_hz;
     cfg.fill = opt->capture.fill;
-    cfg.neutral_frame = opt->capture.neutral_frame;
-    if (opt->neutral_given)
-        cfg.rest = cfg.neutral_frame >= 0 ? FAP_REST_FRAME : FAP_REST_FOUND;
     if (!(rep->coefficients->rate_hz > 0) && opt->rate_given) {
         rep->coefficients->rate_hz = cfg.rate_hz;
         rep->rate_assumed = 1;
     }
+    neutral_option_frames(&opt->neutral, rep->coefficients->rate_hz, &cfg.neutral_frame, &cfg.neutral_last);
+    if (opt->neutral.given) /* they have a rest of their own otherwise */
+        cfg.rest = cfg.neutral_frame >= 0 ? FAP_REST_FRAME : FAP_REST_FOUND;
     const fap_err err = fap_coefficients_encode(&rep->performance, rep->coefficients, &cfg, where);
     return err == FAP_OK ? write_performance(opt, rep) : fail(rep, err, opt->input, where);
 }

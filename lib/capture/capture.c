@@ -32,7 +32,7 @@ struct fap_capture {
 void fap_capture_config_init(fap_capture_config *cfg)
 {
     *cfg = (fap_capture_config){
-        .struct_size = sizeof *cfg, .rate_hz = 25, .neutral_frame = -1, .fill = FAP_FILL_ALL
+        .struct_size = sizeof *cfg, .rate_hz = 25, .neutral_frame = -1, .neutral_last = -1, .fill = FAP_FILL_ALL
     };
 }
 

@@ -564,3 +564,33 @@ TEST(capture, the_tip_of_the_nose_can_carry_the_head)
     fap_capture_close(&c);
     fap_take_close(&take);
 }
+
+static void neutral_stretch(fap_capture_config *cfg)
+{
+    cfg->neutral_frame = 10;
+    cfg->neutral_last = 19;
+    cfg->smooth_hz = -1;
+}
+
+/* What is neutral is the mean: FAPs are what they were, less their mean over the stretch. */
+TEST(capture, the_mean_of_a_given_stretch_is_the_face_at_rest)
+{
+    fap_take *take = make_take(straight);
+    for (uint32_t f = 0; f < FRAMES; f++)
+        for (uint32_t i = 0; i < PLACES; i++)
+            if (!strncmp(places[i].name, "Cap", 3))
+                memcpy(take->xyz[f * PLACES + i], take->xyz[i], sizeof take->xyz[i]);
+    fap_capture *c = encode(take, neutral_stretch);
+    const fap_capture_report *r = fap_capture_report_get(c);
+    double mean = 0;
+
+    assert_false(r->neutral_found);
+    assert_float_equal(r->neutral_s, 14 / 25.0, 1e-6);
+    assert_float_equal(r->neutral_length_s, 10 / 25.0, 1e-6);
+    for (int f = 10; f < 20; f++)
+        mean += fap_capture_frames(c)[f].value[53] / 10.0;
+    assert_float_equal(mean, 0, 1);
+    assert_true(abs(fap_capture_frames(c)[14].value[53]) > 0);
+    fap_capture_close(&c);
+    fap_take_close(&take);
+}

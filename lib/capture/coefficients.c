@@ -32,7 +32,9 @@ typedef struct work {
 
 void fap_coefficients_config_init(fap_coefficients_config *cfg)
 {
-    *cfg = (fap_coefficients_config){ .struct_size = sizeof *cfg, .rate_hz = 25, .fill = FAP_FILL_ALL };
+    *cfg = (fap_coefficients_config){
+        .struct_size = sizeof *cfg, .rate_hz = 25, .neutral_last = -1, .fill = FAP_FILL_ALL
+    };
 }
 
 static fap_err work_fail(work *w, fap_err err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
@@ -323,30 +325,56 @@ static void take_rest_off(work *w, const float *rest)
     }
 }
 
-/* Half a second found, or a tenth around a frame that was named: one frame alone is noisy. */
+/* Frames of @c take whose mean is the face at rest. */
+typedef struct rest_stretch {
+    const fap_coefficients *take;
+    uint32_t first, length;
+} rest_stretch;
+
+/* A tenth of a second around a frame, as one alone is noisy; or the stretch as it is. */
+static fap_err named_stretch(work *w, const fap_coefficients *whole, rest_stretch *s)
+{
+    const int64_t from = w->cfg->neutral_frame, to = w->cfg->neutral_last < 0 ? from : w->cfg->neutral_last;
+
+    if (from < 0 || to < from || to >= whole->frame_count)
+        return work_fail(w, FAP_E_ARG, "--neutral %lld: the take has frames 0 to %u",
+                         (long long)(from < 0 || from >= whole->frame_count ? from : to),
+                         (unsigned)(whole->frame_count - 1));
+    const uint32_t around = (uint32_t)fmin(whole->frame_count, fmax(1, 0.1 * whole->rate_hz));
+    const uint32_t middle = (uint32_t)from, margin = around / 2;
+    *s = to > from ? (rest_stretch){ whole, middle, (uint32_t)(to - from + 1) }
+                   : (rest_stretch){ whole, middle > margin ? middle - margin : 0, around };
+    return FAP_OK;
+}
+
+static fap_err still_stretch(const work *w, rest_stretch *s)
+{
+    const uint32_t length = (uint32_t)fmin(w->take->frame_count, fmax(1, 0.5 * w->take->rate_hz));
+
+    *s = (rest_stretch){ w->take, stillest(w, length), length };
+    return FAP_OK;
+}
+
 static fap_err settle_rest(work *w, const fap_coefficients *whole)
 {
     const fap_coefficients_config *cfg = w->cfg;
     fap_coefficients *t = w->take;
     float rest[FAP_CHANNEL_COUNT];
-    const int named = cfg->rest == FAP_REST_FRAME;
-    const fap_coefficients *from = named ? whole : t;
-    const uint32_t length = (uint32_t)fmin(from->frame_count, fmax(1, (named ? 0.1 : 0.5) * t->rate_hz));
+    rest_stretch s = { t, 0, 1 };
 
     w->out->report.neutral_s = -1;
     if (cfg->rest == FAP_REST_ZERO)
         return FAP_OK;
-    if (named && (cfg->neutral_frame < 0 || cfg->neutral_frame >= whole->frame_count))
-        return work_fail(w, FAP_E_ARG, "--neutral %lld: the take has frames 0 to %u",
-                         (long long)cfg->neutral_frame, (unsigned)(whole->frame_count - 1));
-    const uint32_t middle = named ? (uint32_t)cfg->neutral_frame : 0;
-    const uint32_t first = !named ? stillest(w, length) : middle > length / 2 ? middle - length / 2 : 0;
+    const int named = cfg->rest == FAP_REST_FRAME;
+    const fap_err err = named ? named_stretch(w, whole, &s) : still_stretch(w, &s);
+    if (err != FAP_OK)
+        return err;
     for (uint32_t c = 0; c < t->channel_count; c++) {
-        rest[c] = mean_of(from, c, first, first + length - 1);
+        rest[c] = mean_of(s.take, c, s.first, s.first + s.length - 1);
         w->out->report.channel[t->channel[c]].rest = rest[c];
     }
     const double skipped = named ? 0 : fmax(0, ceil(cfg->start_s * whole->rate_hz - 1e-6));
-    w->out->report.neutral_s = (skipped + first + length / 2.0) / t->rate_hz;
+    w->out->report.neutral_s = (skipped + s.first + s.length / 2.0) / t->rate_hz;
     take_rest_off(w, rest);
     return FAP_OK;
 }

@@ -198,33 +198,71 @@ static fap_err choose(performance *p, uint32_t *frame)
     return FAP_OK;
 }
 
-static fap_err given(performance *p, uint32_t *frame)
+/* Frames of the FAPs; @p middle is where the head's pose at rest is from. */
+typedef struct stretch {
+    uint32_t first, middle, last;
+} stretch;
+
+/* The frame of the FAPs nearest to one of the take; may lie outside of them. */
+static double own_frame(const performance *p, int64_t frame)
 {
     const fap_capture_report *r = p->report;
-    const double time_s = (double)p->cfg->neutral_frame / r->take_rate_hz - p->cfg->start_s;
-    const double f = nearbyint(time_s * r->rate_hz);
-
-    if (!(f >= 0 && f < p->frames))
-        return performance_fail(p, FAP_E_ARG,
-                                "--neutral %lld: the part that is encoded has frames %.0f to %.0f",
-                                (long long)p->cfg->neutral_frame, ceil(p->cfg->start_s * r->take_rate_hz),
-                                floor((p->cfg->start_s + (p->frames - 1) / r->rate_hz) * r->take_rate_hz));
-    *frame = (uint32_t)f;
-    return p->posed[*frame] ? FAP_OK
-                            : performance_fail(p, FAP_E_ARG, "--neutral: the head is not seen in that frame");
+    return nearbyint(((double)frame / r->take_rate_hz - p->cfg->start_s) * r->rate_hz);
 }
 
-/* Mean over the frames around the chosen one, so that one noisy frame does not become an offset of all FAPs.
- */
-static void take_places(performance *p, uint32_t middle, uint32_t w)
+static fap_err outside(performance *p, int64_t frame)
 {
-    const uint32_t first = middle > w ? middle - w : 0,
-                   last = middle + w < p->frames ? middle + w : p->frames - 1;
+    const fap_capture_report *r = p->report;
+    return performance_fail(p, FAP_E_ARG, "--neutral %lld: the part that is encoded has frames %.0f to %.0f",
+                            (long long)frame, ceil(p->cfg->start_s * r->take_rate_hz),
+                            floor((p->cfg->start_s + (p->frames - 1) / r->rate_hz) * r->take_rate_hz));
+}
 
+/* The frame nearest to the middle that shows the head. */
+static int settle_middle(const performance *p, stretch *s)
+{
+    const uint32_t middle = s->first + (s->last - s->first) / 2;
+
+    for (uint32_t d = 0; d <= s->last - s->first; d++) {
+        s->middle = middle + d <= s->last && p->posed[middle + d] ? middle + d : middle - d;
+        if (s->middle >= s->first && s->middle <= s->last && p->posed[s->middle])
+            return 1;
+    }
+    return 0;
+}
+
+static fap_err given(performance *p, stretch *s)
+{
+    const int64_t from = p->cfg->neutral_frame, to = p->cfg->neutral_last < 0 ? from : p->cfg->neutral_last;
+    const double first = own_frame(p, from), last = own_frame(p, to);
+
+    if (!(first >= 0 && first < p->frames))
+        return outside(p, from);
+    if (!(last >= first && last < p->frames))
+        return outside(p, to);
+    s->first = (uint32_t)first;
+    s->last = (uint32_t)last;
+    return settle_middle(p, s) ? FAP_OK
+                               : performance_fail(p, FAP_E_ARG, "--neutral: the head is not seen there");
+}
+
+static fap_err found(performance *p, stretch *s)
+{
+    const uint32_t w = window(p);
+    const fap_err err = choose(p, &s->middle);
+
+    s->first = s->middle > w ? s->middle - w : 0;
+    s->last = s->middle + w < p->frames ? s->middle + w : p->frames - 1;
+    return err;
+}
+
+/* Mean over the frames, so that one noisy frame does not become an offset of all FAPs. */
+static void take_places(performance *p, const stretch *s)
+{
     for (uint32_t i = 0; i < p->take->point_count; i++) {
         double sum[3] = { 0 }, v[3];
         uint32_t n = 0;
-        for (uint32_t f = first; f <= last; f++) {
+        for (uint32_t f = s->first; f <= s->last; f++) {
             if (!head_still(p, f, i, v))
                 continue;
             for (int axis = 0; axis < 3; axis++)
@@ -257,17 +295,18 @@ static void place_hidden(performance *p, uint32_t middle)
 
 fap_err neutral_find(performance *p)
 {
-    const int found = p->cfg->neutral_frame < 0;
-    uint32_t frame = 0;
-    const fap_err err = found ? choose(p, &frame) : given(p, &frame);
+    const int is_found = p->cfg->neutral_frame < 0;
+    stretch s = { 0, 0, 0 };
+    const fap_err err = (is_found ? found : given)(p, &s);
 
     if (err != FAP_OK)
         return err;
-    p->report->neutral_found = (uint8_t)found;
-    p->report->neutral_s = p->cfg->start_s + frame / p->report->rate_hz;
-    p->rest = p->pose[frame];
-    take_places(p, frame, found ? window(p) : 0);
-    place_hidden(p, frame);
+    p->report->neutral_found = (uint8_t)is_found;
+    p->report->neutral_s = p->cfg->start_s + s.middle / p->report->rate_hz;
+    p->report->neutral_length_s = (s.last - s.first + 1) / p->report->rate_hz;
+    p->rest = p->pose[s.middle];
+    take_places(p, &s);
+    place_hidden(p, s.middle);
     return FAP_OK;
 }
 

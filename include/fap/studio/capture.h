@@ -40,6 +40,8 @@ typedef struct fap_capture_config {
     double rate_hz;        /**< 25: frames a second of the FAPs */
     double start_s, end_s; /**< 0, 0: the whole take; seconds from its first frame */
     int64_t neutral_frame; /**< -1: found; otherwise a frame of the take, the first one is 0 */
+    int64_t
+        neutral_last; /**< -1: that frame alone; otherwise the last of a stretch, whose mean is the face at rest */
     const char *
         axes; /**< NULL: found; "x-zy": which axes of the take are the head's x (left), y (up), z (forward) */
     const char *rigid;    /**< NULL: by the marker set, or found; "A,B,C" */
@@ -117,6 +119,7 @@ typedef struct fap_capture_report {
     double axes_turn_deg;    /**< how far the head's axes are turned from those */
     uint8_t axes_found, sides_swapped;
     double neutral_s; /**< middle of the neutral stretch, from the start of the take */
+    double neutral_length_s;
     uint8_t neutral_found;
     fap_fapu fapu;
     fap_origin fapu_origin[5]; /**< IRISD, ES, ENS, MNS, MW */

@@ -87,6 +87,7 @@ typedef struct fap_coefficients_config {
     double start_s, end_s; /**< 0, 0: the whole take; seconds from its first frame */
     fap_coefficients_rest rest;
     int64_t neutral_frame; /**< of the take, the first one is 0 */
+    int64_t neutral_last;  /**< -1: that frame alone; otherwise the last of a stretch */
     double smooth_hz;      /**< as fap_capture_config has it */
     fap_fill fill;         /**< FAP_FILL_ALL */
 } fap_coefficients_config;
