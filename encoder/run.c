@@ -14,6 +14,7 @@
 #include "common/tool.h"
 #include "encoder/plot/sheet.h"
 #include "encoder/run.h"
+#include "encoder/setup.h"
 
 static const size_t max_input = (size_t)1 << 30, max_table = (size_t)1 << 20;
 
@@ -156,12 +157,53 @@ static fap_err write_capture(const options *opt, run_report *rep)
     return write_output(opt, rep, &header, &src);
 }
 
+/* What an encoding is given besides the take. */
+typedef struct given_files {
+    uint8_t *markers;
+    fap_bank *bank;
+    fap_fapu fapu;
+} given_files;
+
+/* *path is the file that is wrong; *where is empty where it could not be read. */
+static fap_err read_given(const options *opt, fap_capture_config *cfg, given_files *g, const char **path,
+                          char *where)
+{
+    fap_err err = FAP_OK;
+
+    if ((*path = opt->fapu_path)) {
+        err = fapu_file_read(*path, &g->fapu, where);
+        cfg->fapu = &g->fapu;
+    }
+    if (err == FAP_OK && (*path = opt->markers_path)) {
+        err = file_read(*path, max_table, &g->markers, &cfg->markers_size);
+        cfg->markers = (const char *)g->markers;
+    }
+    if (err == FAP_OK && (*path = opt->bank_path)) {
+        err = encoder_bank_read(&g->bank, *path, where);
+        cfg->bank = g->bank;
+    }
+    return err;
+}
+
+static fap_err encode_with(const options *opt, run_report *rep, fap_capture_config *cfg, given_files *g)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+    const char *path;
+    fap_err err = read_given(opt, cfg, g, &path, where);
+
+    if (err != FAP_OK)
+        return *where ? fail(rep, err, path, where) : fail_errno(rep, err, path);
+    err = fap_capture_encode(&rep->capture, rep->take, cfg, where);
+    if (err != FAP_OK)
+        return fail(rep, err, err == FAP_E_SYNTAX && opt->markers_path ? opt->markers_path : opt->input,
+                    where);
+    return write_capture(opt, rep);
+}
+
 static fap_err encode(const options *opt, run_report *rep)
 {
     fap_capture_config cfg = opt->capture;
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-    uint8_t *markers = NULL;
-    fap_fapu fapu;
+    given_files given = { NULL, NULL, { 0 } };
 
     if (!(rep->take->rate_hz > 0) && opt->rate_given) {
         rep->take->rate_hz = cfg.rate_hz;
@@ -171,24 +213,10 @@ static fap_err encode(const options *opt, run_report *rep)
         return fail(rep, FAP_E_ARG, opt->input,
                     "the take does not say its frame rate; give it with --take-rate");
     neutral_option_frames(&opt->neutral, rep->take->rate_hz, &cfg.neutral_frame, &cfg.neutral_last);
-    if (opt->fapu_path) {
-        const fap_err err = fapu_file_read(opt->fapu_path, &fapu, where);
-        if (err != FAP_OK)
-            return fail(rep, err, opt->fapu_path, where);
-        cfg.fapu = &fapu;
-    }
-    if (opt->markers_path) {
-        const fap_err err = file_read(opt->markers_path, max_table, &markers, &cfg.markers_size);
-        if (err != FAP_OK)
-            return fail_errno(rep, err, opt->markers_path);
-        cfg.markers = (const char *)markers;
-    }
-    const fap_err err = fap_capture_encode(&rep->capture, rep->take, &cfg, where);
-    free(markers);
-    if (err != FAP_OK)
-        return fail(rep, err, err == FAP_E_SYNTAX && opt->markers_path ? opt->markers_path : opt->input,
-                    where);
-    return write_capture(opt, rep);
+    const fap_err err = encode_with(opt, rep, &cfg, &given);
+    free(given.markers);
+    fap_bank_close(&given.bank);
+    return err;
 }
 
 static fap_err write_performance(const options *opt, run_report *rep)

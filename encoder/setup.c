@@ -8,7 +8,7 @@
 #include "common/bank_file.h"
 #include "encoder/setup.h"
 
-static fap_err read_bank(fap_bank **bank, const char *path, char *where)
+fap_err encoder_bank_read(fap_bank **bank, const char *path, char *where)
 {
     return strcmp(path, "builtin") ? bank_file_read(bank, path, where) : fap_bank_builtin(bank, NULL);
 }
@@ -22,7 +22,7 @@ static fap_err measure_face(encoder_setup *s, const options *opt, const char **p
 
     if (opt->bank_path) {
         *path = opt->bank_path;
-        err = read_bank(&bank, opt->bank_path, where);
+        err = encoder_bank_read(&bank, opt->bank_path, where);
     } else if (bank_file_default(found)) {
         err = bank_file_read(&bank, found, where);
     } else {

@@ -15,6 +15,9 @@ typedef struct encoder_setup {
     fap_encoder_config bits; /* what the options say, with these */
 } encoder_setup;
 
+/* --bank: a file, or "builtin". */
+fap_err encoder_bank_read(fap_bank **bank, const char *path, char *where);
+
 /*
  * @p fit    of --fit, or NULL; must live as long as the setup
  * @p path   set to the file that is to blame where the error is in one

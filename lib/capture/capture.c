@@ -44,6 +44,7 @@ const char *fap_origin_name(fap_origin origin)
     case FAP_ORIGIN_FOUND: return "found";
     case FAP_ORIGIN_MEASURED: return "measured";
     case FAP_ORIGIN_SCALED: return "typical, scaled";
+    case FAP_ORIGIN_BANK: return "bank, scaled";
     case FAP_ORIGIN_NONE: break;
     }
     return "none";

@@ -594,3 +594,37 @@ TEST(capture, the_mean_of_a_given_stretch_is_the_face_at_rest)
     fap_capture_close(&c);
     fap_take_close(&take);
 }
+
+static void without_corners(fap_capture_config *cfg)
+{
+    cfg->markers = "8.3,none\n8.4,none\n";
+    cfg->markers_size = strlen(cfg->markers);
+}
+
+/* A mouth without corners is as wide as the bank's, by how much larger the rest of the face is than the bank's. */
+TEST(capture, fapu_that_cannot_be_measured_have_the_proportions_of_the_bank)
+{
+    fap_capture_config cfg;
+    fap_capture *c;
+    fap_bank *bank;
+    fap_take *take = make_take(straight);
+
+    assert_int_equal(fap_bank_builtin(&bank, NULL), FAP_OK);
+    fap_capture_config_init(&cfg);
+    cfg.rigid = rigid_names;
+    cfg.neutral_frame = 0;
+    cfg.bank = bank;
+    without_corners(&cfg);
+    assert_int_equal(fap_capture_encode(&c, take, &cfg, NULL), FAP_OK);
+    const fap_capture_report *r = fap_capture_report_get(c);
+    assert_int_equal(r->fapu_origin[4], FAP_ORIGIN_BANK);
+    assert_string_equal(fap_origin_name(r->fapu_origin[4]), "bank, scaled");
+    assert_float_equal(r->fapu.mw_mm, fap_bank_fapu(bank)->mw_mm * (float)r->fapu_scale, 1e-3);
+    assert_int_equal(r->fapu_origin[1], FAP_ORIGIN_MEASURED);
+    fap_capture_close(&c);
+    c = encode(take, without_corners);
+    assert_int_equal(fap_capture_report_get(c)->fapu_origin[4], FAP_ORIGIN_SCALED);
+    fap_capture_close(&c);
+    fap_bank_close(&bank);
+    fap_take_close(&take);
+}

@@ -63,28 +63,6 @@ static float measured(const performance *p, const struct proportion *row, int *n
     return d > 0 ? d : 0;
 }
 
-/* Across the face, from points if there are any, else from markers near them; the mean of what there is. */
-static double find_scale(const performance *p)
-{
-    for (int allow_near = 0; allow_near < 2; allow_near++) {
-        double sum = 0;
-        int n = 0;
-        for (int i = 0; i < ROWS; i++) {
-            int near;
-            const float mm = measured(p, &proportions[i], &near);
-            /* A mouth is the least reliable measure of a head: markers sit beside its corners. */
-            if (mm <= 0 || near != allow_near || (near && proportions[i].unit == FAP_UNIT_MW) ||
-                proportions[i].unit == FAP_UNIT_IRISD)
-                continue;
-            sum += mm / proportions[i].typical_mm;
-            n++;
-        }
-        if (n)
-            return sum / n;
-    }
-    return 1;
-}
-
 static float *slot(fap_fapu *fapu, int unit)
 {
     switch (unit) {
@@ -97,12 +75,50 @@ static float *slot(fap_fapu *fapu, int unit)
     }
 }
 
+/* The row's distance on the face that proportions are taken from; 0: that face does not have it. */
+static double proportion_mm(const performance *p, const struct proportion *row)
+{
+    if (!p->cfg->bank)
+        return row->typical_mm;
+    fap_fapu fapu = *fap_bank_fapu(p->cfg->bank);
+    const float *unit = slot(&fapu, row->unit);
+    const fap_bank_point *a =
+        fap_bank_point_get(p->cfg->bank, fap_point_index(row->from_group, row->from_index));
+    const fap_bank_point *b = fap_bank_point_get(p->cfg->bank, fap_point_index(row->to_group, row->to_index));
+    if (unit)
+        return (double)*unit;
+    return a->present && b->present ? (double)(a->position_mm[row->axis] - b->position_mm[row->axis]) : 0;
+}
+
+/* Across the face, from points if there are any, else from markers near them; the mean of what there is. */
+static double find_scale(const performance *p)
+{
+    for (int allow_near = 0; allow_near < 2; allow_near++) {
+        double sum = 0;
+        int n = 0;
+        for (int i = 0; i < ROWS; i++) {
+            int near;
+            const float mm = measured(p, &proportions[i], &near);
+            const double usual_mm = proportion_mm(p, &proportions[i]);
+            /* A mouth is the least reliable measure of a head: markers sit beside its corners. */
+            if (mm <= 0 || usual_mm <= 0 || near != allow_near ||
+                (near && proportions[i].unit == FAP_UNIT_MW) || proportions[i].unit == FAP_UNIT_IRISD)
+                continue;
+            sum += mm / usual_mm;
+            n++;
+        }
+        if (n)
+            return sum / n;
+    }
+    return 1;
+}
+
 /* Tells when a measure is unlike a face of this size. Lids half closed at rest are no iris: that one is not
  * used. */
 static int is_believed(performance *p, const struct proportion *row, float mm)
 {
     static const char *const names[] = { "", "IRISD", "ES", "ENS", "MNS", "MW" };
-    const double ratio = mm / (row->typical_mm * p->report->fapu_scale);
+    const double ratio = mm / (proportion_mm(p, row) * p->report->fapu_scale);
 
     if (ratio >= 0.6 && ratio <= 1.5)
         return 1;
@@ -116,6 +132,7 @@ static int is_believed(performance *p, const struct proportion *row, float mm)
 fap_err fapu_settle(performance *p)
 {
     fap_capture_report *r = p->report;
+    const fap_origin scaled = p->cfg->bank ? FAP_ORIGIN_BANK : FAP_ORIGIN_SCALED;
 
     r->fapu_scale = find_scale(p);
     for (int i = 0; i < ROWS; i++) {
@@ -125,8 +142,8 @@ fap_err fapu_settle(performance *p)
             continue;
         const float mm = measured(p, &proportions[i], &near);
         const int use = mm > 0 && !near && is_believed(p, &proportions[i], mm);
-        *out = use ? mm : (float)(proportions[i].typical_mm * r->fapu_scale);
-        r->fapu_origin[proportions[i].unit - FAP_UNIT_IRISD] = use ? FAP_ORIGIN_MEASURED : FAP_ORIGIN_SCALED;
+        *out = use ? mm : (float)(proportion_mm(p, &proportions[i]) * r->fapu_scale);
+        r->fapu_origin[proportions[i].unit - FAP_UNIT_IRISD] = use ? FAP_ORIGIN_MEASURED : scaled;
     }
     if (p->cfg->fapu) {
         r->fapu = *p->cfg->fapu;

@@ -50,8 +50,8 @@ typedef struct fap_capture_config {
     size_t markers_size;
     double smooth_hz; /**< 0: as the rates ask for; > 0: low-pass; < 0: none */
     fap_fill fill;    /**< FAP_FILL_ALL */
-    const fap_bank
-        *bank;       /**< NULL: the built-in face; the markers are placed on it, kept for the call only */
+    /** NULL: the built-in face. Markers are placed on it, and FAPU not measured have its proportions; for the call only */
+    const fap_bank *bank;
     uint8_t average; /**< 0; 1: Zhu's mean of three frames instead of the search for spikes */
     fap_head head;   /**< FAP_HEAD_RIGID */
 } fap_capture_config;
@@ -64,9 +64,10 @@ typedef enum fap_origin {
     FAP_ORIGIN_SET,
     FAP_ORIGIN_FOUND,
     FAP_ORIGIN_MEASURED,
-    FAP_ORIGIN_SCALED
+    FAP_ORIGIN_SCALED, /**< of a typical face, scaled by what was measured */
+    FAP_ORIGIN_BANK,   /**< of the configuration's bank, scaled likewise */
 } fap_origin;
-/** "given", "marker set", "found", "measured", "typical, scaled"; static. */
+/** "given", "marker set", "found", "measured", "typical, scaled", "bank, scaled"; static. */
 FAP_API const char *fap_origin_name(fap_origin origin);
 
 /** How the motion of a feature point was found. */
@@ -113,10 +114,9 @@ typedef struct fap_capture_report {
     uint32_t rigid_count;
     int16_t rigid[FAP_CAPTURE_MAX_RIGID]; /**< points of the take */
     double rigid_rms_mm;
-    uint32_t
-        frames_without_nose; /**< FAP_HEAD_NOSE: carried by the rigid markers, as the nose's is not seen */
-    char axes[16];           /**< nearest axes of the take: "x y z" of the head */
-    double axes_turn_deg;    /**< how far the head's axes are turned from those */
+    uint32_t frames_without_nose; /**< FAP_HEAD_NOSE: carried by the rigid markers, the nose is hidden */
+    char axes[16];                /**< nearest axes of the take: "x y z" of the head */
+    double axes_turn_deg;         /**< how far the head's axes are turned from those */
     uint8_t axes_found, sides_swapped;
     double neutral_s; /**< middle of the neutral stretch, from the start of the take */
     double neutral_length_s;
