@@ -7,6 +7,8 @@
 #include "common/json.h"
 #include "common/tool.h"
 #include "encoder/report_capture.h"
+#include "encoder/report_cleaning.h"
+#include "encoder/report_line.h"
 #include "encoder/report_written.h"
 
 static const char *const fapu_names[5] = { "IRISD", "ES", "ENS", "MNS", "MW" };
@@ -25,38 +27,28 @@ static const char *point_name(int point)
 
 /* --- a capture, in words --- */
 
-/* Text in the making, cut at the end of its room. */
-typedef struct line {
-    char text[1024];
-    size_t used;
-} line;
-
-static void add(line *l, const char *separator, const char *text)
-{
-    const int n =
-        snprintf(l->text + l->used, sizeof l->text - l->used, "%s%s", l->used ? separator : "", text);
-    l->used = l->used + (size_t)n < sizeof l->text ? l->used + (size_t)n : sizeof l->text - 1;
-}
-
 static void say_markers(const run_report *rep, const fap_capture_report *r)
 {
-    line unknown = { "", 0 };
+    report_line unknown = { "", 0 };
+    unsigned count = 0;
 
     for (uint32_t i = 0; i < r->take_points && i < FAP_TAKE_MAX_POINTS; i++)
-        if (!r->markers.role[i])
-            add(&unknown, ", ", rep->take->name[i]);
+        if (!r->markers.role[i] && count++ < REPORT_MOST)
+            report_line_add(&unknown, ", ", rep->take->name[i]);
     tool_note("markers: %u of %u known%s%s", (unsigned)r->markers.used, (unsigned)r->take_points,
               *r->markers.set ? ", set " : "", r->markers.set);
-    if (unknown.used)
+    if (count > REPORT_MOST)
+        tool_note("  not used: %s and %u more", unknown.text, count - REPORT_MOST);
+    else if (count)
         tool_note("  not used: %s", unknown.text);
 }
 
 static void say_head(const options *opt, const run_report *rep, const fap_capture_report *r)
 {
-    line rigid = { "", 0 };
+    report_line rigid = { "", 0 };
 
     for (uint32_t i = 0; i < r->rigid_count; i++)
-        add(&rigid, ", ", rep->take->name[r->rigid[i]]);
+        report_line_add(&rigid, ", ", rep->take->name[r->rigid[i]]);
     if (r->rigid_count)
         tool_note("head: rigid markers %s (%s), %.2f mm rms", rigid.text, fap_origin_name(r->rigid_origin),
                   r->rigid_rms_mm);
@@ -71,76 +63,34 @@ static void say_head(const options *opt, const run_report *rep, const fap_captur
               r->neutral_found ? ", found" : ", given");
 }
 
-/* "2 spline, 1 motion": gaps of a marker by method. */
-static void add_methods(line *l, const fap_clean_point *c)
-{
-    char text[32];
-
-    for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++) {
-        if (!c->gaps_by[kind])
-            continue;
-        snprintf(text, sizeof text, "%u %s", (unsigned)c->gaps_by[kind], fap_sample_name((fap_sample)kind));
-        add(l, ", ", text);
-    }
-}
-
-static void say_cleaned_point(const char *name, const fap_clean_point *c, double rate_hz)
-{
-    line methods = { "", 0 };
-    uint32_t filled = 0;
-    char error[48] = "";
-
-    add_methods(&methods, c);
-    for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++)
-        filled += c->filled[kind];
-    if (c->error_mm > 0)
-        snprintf(error, sizeof error, ", about %.2f mm off", (double)c->error_mm);
-    tool_note("  %-20s %u spikes, %u gaps, the longest %.2f s; %u samples filled (%s)%s, %u left", name,
-              (unsigned)c->spikes, (unsigned)c->gaps, c->longest_gap / rate_hz, (unsigned)filled,
-              methods.used ? methods.text : "none", error, (unsigned)c->unfilled);
-}
-
-static void say_cleaning(const run_report *rep, const fap_capture_report *r)
-{
-    const fap_clean_report *c = &r->clean;
-    const fap_clean_point *points = fap_capture_clean_points(rep->capture);
-
-    tool_note("cleaned: %u spikes out, %u gaps closed (%u samples), %u gaps left, %u of feature points eased",
-              (unsigned)c->spikes, (unsigned)c->gaps_closed, (unsigned)c->samples_filled,
-              (unsigned)c->gaps_left, (unsigned)r->gaps_eased);
-    for (uint32_t i = 0; i < r->take_points; i++)
-        if (points[i].spikes || points[i].gaps)
-            say_cleaned_point(rep->take->name[i], &points[i], r->take_rate_hz);
-}
-
 static void say_fapu(const fap_capture_report *r)
 {
-    line l = { "", 0 };
+    report_line l = { "", 0 };
     char text[64];
 
     for (int i = 0; i < 5; i++) {
         snprintf(text, sizeof text, "%s %.1f (%s)", fapu_names[i], (double)fapu_mm(&r->fapu, i),
                  fap_origin_name(r->fapu_origin[i]));
-        add(&l, ", ", text);
+        report_line_add(&l, ", ", text);
     }
     tool_note("FAPU, mm: %s", l.text);
 }
 
 /* "Mouth_Up", "Mouth_Up 0.7, Mouth_UpL1 0.3": what a FAP was taken from. */
-static void add_markers(line *l, const run_report *rep, const fap_capture_origin *o)
+static void add_markers(report_line *l, const run_report *rep, const fap_capture_origin *o)
 {
     char text[FAP_TAKE_NAME_SIZE + 16];
 
     for (int i = 0; i < o->marker_count; i++) {
         snprintf(text, sizeof text, o->how == FAP_HOW_RBF ? "%s %.2f" : "%s", rep->take->name[o->marker[i]],
                  (double)o->share[i]);
-        add(l, ", ", text);
+        report_line_add(l, ", ", text);
     }
 }
 
 static void say_fap(const run_report *rep, int fap, const fap_capture_fap *f)
 {
-    line markers = { "", 0 };
+    report_line markers = { "", 0 };
     char beyond[48] = "";
 
     add_markers(&markers, rep, &f->origin);
@@ -156,7 +106,7 @@ static void say_fap(const run_report *rep, int fap, const fap_capture_fap *f)
 static void say_missing(const fap_capture_report *r, int first)
 {
     const char *reason = r->fap[first].reason;
-    line l = { "", 0 };
+    report_line l = { "", 0 };
     char number[16];
 
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
@@ -165,7 +115,7 @@ static void say_missing(const fap_capture_report *r, int first)
         if (fap < first)
             return;
         snprintf(number, sizeof number, "%d", fap);
-        add(&l, " ", number);
+        report_line_add(&l, " ", number);
     }
     tool_note("  not sent: %s: %s", l.text, reason);
 }
@@ -198,7 +148,7 @@ void report_capture_say(const options *opt, const run_report *rep)
               (unsigned)r->take_points, (unsigned)r->take_frames, r->take_rate_hz, r->take_length_s);
     say_notes(rep, r);
     say_markers(rep, r);
-    say_cleaning(rep, r);
+    report_cleaning_say(rep, r);
     say_head(opt, rep, r);
     say_fapu(r);
     tool_note("%s: %u frames at %g Hz", opt->output, (unsigned)r->frames, r->rate_hz);
@@ -245,45 +195,6 @@ static void json_markers(json *j, const run_report *rep, const fap_capture_repor
         if (!r->markers.role[i])
             json_string(j, NULL, rep->take->name[i]);
     json_close(j, ']');
-    json_close(j, '}');
-}
-
-static void json_cleaned_point(json *j, const char *name, const fap_clean_point *c)
-{
-    uint32_t filled = 0;
-
-    json_open(j, name, '{');
-    json_integer(j, "spikes", c->spikes);
-    json_integer(j, "gaps", c->gaps);
-    json_integer(j, "longest_gap", c->longest_gap);
-    json_open(j, "gaps_by", '{');
-    for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++) {
-        filled += c->filled[kind];
-        if (c->gaps_by[kind])
-            json_integer(j, fap_sample_name((fap_sample)kind), c->gaps_by[kind]);
-    }
-    json_close(j, '}');
-    json_integer(j, "filled", filled);
-    json_integer(j, "unfilled", c->unfilled);
-    json_number(j, "error_mm", (double)c->error_mm);
-    json_close(j, '}');
-}
-
-static void json_cleaning(json *j, const run_report *rep, const fap_capture_report *r)
-{
-    const fap_clean_point *points = fap_capture_clean_points(rep->capture);
-
-    json_open(j, "cleaning", '{');
-    json_integer(j, "spikes", r->clean.spikes);
-    json_integer(j, "gaps_closed", r->clean.gaps_closed);
-    json_integer(j, "samples_filled", r->clean.samples_filled);
-    json_integer(j, "gaps_left", r->clean.gaps_left);
-    json_integer(j, "gaps_eased", r->gaps_eased);
-    json_open(j, "markers", '{');
-    for (uint32_t i = 0; i < r->take_points; i++)
-        if (points[i].spikes || points[i].gaps)
-            json_cleaned_point(j, rep->take->name[i], &points[i]);
-    json_close(j, '}');
     json_close(j, '}');
 }
 
@@ -398,7 +309,7 @@ void report_capture_json(const options *opt, const run_report *rep)
     json_number(&j, "rate_hz", r->rate_hz);
     report_written_json(&j, opt, &rep->written);
     json_markers(&j, rep, r);
-    json_cleaning(&j, rep, r);
+    report_cleaning_json(&j, rep, r);
     json_head(&j, opt, rep, r);
     json_neutral(&j, r);
     json_faps(&j, rep, r);

@@ -111,9 +111,10 @@ static int find_any(performance *p)
            rigid_body_find(&p->body, p->take, candidate, list_points(p, is_not_of_mouth, candidate));
 }
 
+/* Those join that keep their place as well as the others do: skin among bones only turns the head. */
 static void extend(performance *p)
 {
-    static const double limit_mm = 1.5;
+    const double limit_mm = fmin(1.5, fmax(0.4, 3 * p->body.rms_mm));
     uint16_t candidate[RIGID_MAX_POINTS];
 
     rigid_body_extend(&p->body, p->take, candidate, list_points(p, is_free, candidate), limit_mm);
