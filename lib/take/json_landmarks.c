@@ -18,6 +18,7 @@
 typedef struct pass {
     fap_take *take;
     double *time; /* [frames], in the file's unit, or a frame's number; NAN: unknown */
+    double *step; /* room for as many */
     uint32_t frames, points, faces_left_out, flat;
     double width, height, rate_hz;
     double time_unit_s; /* 0: the key does not say */
@@ -381,23 +382,18 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Half of the steps are longer; 0: there are no times, or they run back. */
-static double median_step(const take_source *src, const double *time, uint32_t count)
+/* Half of the steps are longer; 0: there are no times, or they run back. @p step: room for as many as there are rows. */
+static double median_step(const double *time, double *step, uint32_t count)
 {
-    double *step = count > 1 ? fap_mem_calloc(&src->alloc, count - 1, sizeof *step) : NULL;
-    double median = 0;
-    int rising = step != NULL;
-
-    for (uint32_t i = 0; rising && i + 1 < count; i++) {
+    if (count < 2)
+        return 0;
+    for (uint32_t i = 0; i + 1 < count; i++) {
         step[i] = time[i + 1] - time[i];
-        rising = step[i] >= 0; /* not for NAN */
+        if (!(step[i] >= 0)) /* NAN too */
+            return 0;
     }
-    if (rising) {
-        qsort(step, count - 1, sizeof *step, by_size);
-        median = step[(count - 2) / 2]; /* the lower one: gaps make steps longer, never shorter */
-    }
-    fap_mem_free(&src->alloc, step);
-    return median;
+    qsort(step, count - 1, sizeof *step, by_size);
+    return step[(count - 2) / 2]; /* the lower one: gaps make steps longer, never shorter */
 }
 
 /* The same rows at their times: what a camera or a script left out becomes a gap. */
@@ -439,10 +435,10 @@ static double rate_of_times(const pass *p, const clock_reading *c, uint32_t rows
     return take_usual_rate(dropped ? 1 / (c->step * unit_s) : (rows - 1) / (length * unit_s));
 }
 
-static clock_reading read_clock(const take_source *src, const pass *p, uint32_t rows)
+static clock_reading read_clock(const pass *p, uint32_t rows)
 {
     static const double few = 0.02; /* where hardly anything is left out the mean is better than the median */
-    clock_reading c = { .step = median_step(src, p->time, rows), .rate_hz = p->rate_hz, .frames = rows };
+    clock_reading c = { .step = median_step(p->time, p->step, rows), .rate_hz = p->rate_hz, .frames = rows };
     const double length = c.step > 0 ? p->time[rows - 1] - p->time[0] : 0;
 
     if (!(c.step > 0) || !isfinite(length / c.step))
@@ -455,9 +451,9 @@ static clock_reading read_clock(const take_source *src, const pass *p, uint32_t 
     return c;
 }
 
-static fap_err settle_time(take_source *src, const pass *p, fap_take **take)
+static fap_err settle_time(const pass *p, fap_take **take)
 {
-    const clock_reading c = read_clock(src, p, (*take)->frame_count);
+    const clock_reading c = read_clock(p, (*take)->frame_count);
 
     if (c.frames > (*take)->frame_count) {
         const fap_err err = spread_rows(take, p->time, c.step, c.frames);
@@ -492,11 +488,11 @@ static void note_oddities(fap_take *take, const pass *p, int bad)
         take_note(take, "%u points have no z; they are taken as flat", (unsigned)p->flat);
 }
 
-static fap_err fill_take(take_source *src, json_text j, pass *p, fap_take **take)
+static fap_err fill_take(json_text j, pass *p, fap_take **take)
 {
     j = read_file(j, p);
     name_by_number(*take);
-    const fap_err err = settle_time(src, p, take);
+    const fap_err err = settle_time(p, take);
     if (err != FAP_OK)
         return err;
     note_oddities(*take, p, j.bad);
@@ -523,10 +519,11 @@ static fap_err landmarks_read(take_source *src, fap_take **take)
         return take_fail(src, err, "JSON: no room for %u frames of %u points", (unsigned)count.frames,
                          (unsigned)count.points);
     pass fill = { .take = *take };
-    fill.time = fap_mem_calloc(&src->alloc, count.frames, sizeof *fill.time);
+    fill.time = fap_mem_calloc(&src->alloc, count.frames, 2 * sizeof *fill.time);
+    fill.step = fill.time ? fill.time + count.frames : NULL;
     for (uint32_t f = 0; fill.time && f < count.frames; f++)
         fill.time[f] = NAN;
-    err = fill.time ? fill_take(src, j, &fill, take) : FAP_E_NOMEM;
+    err = fill.time ? fill_take(j, &fill, take) : FAP_E_NOMEM;
     fap_mem_free(&src->alloc, fill.time);
     return err;
 }

@@ -32,6 +32,11 @@ double bench_encode_x_realtime_c3d(void);
 double bench_encode_x_realtime_openface(void);
 double bench_encode_x_realtime_mediapipe(void);
 double bench_encode_x_realtime_livelink(void);
+/* File to take, and how many times as fast as ezc3d reads the same C3D. */
+double bench_read_mb_s_c3d(void);
+double bench_read_mb_s_trc(void);
+double bench_read_mb_s_csv(void);
+double bench_read_c3d_x_ezc3d(void);
 
 /* Dots in films of a face between mirrors: places against the truth, and pictures a second. */
 double bench_mirror_rms_mm(void);

@@ -23,6 +23,13 @@ const bench_figure bench_figures[] = {
       "mediapipe/wolfgang_facemesh478_24fps.csv: 478 points at 24 Hz", takes },
     { "encode_x_realtime_livelink", "x", bench_encode_x_realtime_livelink,
       "livelink/alex_rom_3.csv: 61 coefficients at 30 Hz", takes },
+    { "read_mb_s_c3d", "MB/s", bench_read_mb_s_c3d,
+      "optical_animface/jaw_60hz.c3d, 1.0 MB: file to take in memory, the fastest of half a second", gap_takes },
+    { "read_mb_s_trc", "MB/s", bench_read_mb_s_trc, "optical_animface/jaw_60hz.trc, 1.9 MB of text", gap_takes },
+    { "read_mb_s_csv", "MB/s", bench_read_mb_s_csv,
+      "optical_animface/eyebrows_60hz_nexus.csv, 0.9 MB of text", gap_takes },
+    { "read_c3d_x_ezc3d", "x", bench_read_c3d_x_ezc3d,
+      "the same C3D by ezc3d's library, in the same run; at least 3", "ezc3d for python3 (skipped), or the take" },
 #define X(frames, text)                                                                                      \
     { "gap_fill_error_mm_" #frames, "mm", bench_gap_fill_error_mm_##frames,                                  \
       text " of one marker hidden, refilled: mean over 41 markers of two takes at 60 Hz, 4 gaps a marker",   \
