@@ -5,12 +5,17 @@
  */
 #include "take/coef.h"
 
-/* Below the score of a table with points: an OpenFace export may have both. */
+/* Below the score of a table with points: a file may have both. But what looks like a point in OpenFace's units is the gaze,
+ * gaze_0_x to gaze_1_z, unless OpenFace's points are there too, which their own reader knows. */
 static int coefficients_claims(const uint8_t *data, size_t size)
 {
-    return coef_driver_livelink.claims(data, size) || coef_driver_openface.claims(data, size) ||
-                   coef_driver_json.claims(data, size) || coef_driver_packets.claims(data, size) > 50
-               ? 20
+    enum { BELOW_TABLES = 20, ABOVE_TABLES = 35 };
+
+    if (coef_driver_openface.claims(data, size))
+        return ABOVE_TABLES;
+    return coef_driver_livelink.claims(data, size) || coef_driver_json.claims(data, size) ||
+                   coef_driver_packets.claims(data, size) > 50
+               ? BELOW_TABLES
                : 0;
 }
 

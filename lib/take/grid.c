@@ -21,7 +21,8 @@ take_grid *grid_open(take_source *src)
 
     if (!g)
         return NULL;
-    g->frame_column = g->time_column = g->filter_column = -1;
+    g->frame_column = g->time_column = g->owner_column = -1;
+    g->filter[0].column = g->filter[1].column = -1;
     g->time_scale = 1;
     g->scale[0] = g->scale[1] = g->scale[2] = 1;
     return g;
@@ -44,6 +45,12 @@ static int number_in(const take_grid *g, int column, double *value)
     return column >= 0 && text_number(text_cell(&g->row, (size_t)column), value) == TEXT_NUMBER;
 }
 
+static int is_somebody_elses(const take_grid *g)
+{
+    double v;
+    return number_in(g, g->owner_column, &v) && v != g->owner;
+}
+
 /* A row counts when the column that every row must have is a number; without such a column any row that is
  * not blank. */
 static int is_data_row(const take_grid *g)
@@ -51,6 +58,8 @@ static int is_data_row(const take_grid *g)
     const int key = g->frame_column >= 0 ? g->frame_column : g->time_column;
     double v;
 
+    if (is_somebody_elses(g))
+        return 0;
     return key < 0 ? !text_row_is_blank(&g->row) : number_in(g, key, &v);
 }
 
@@ -104,7 +113,11 @@ static row_census take_census(take_grid *g)
 static int row_is_trusted(const take_grid *g)
 {
     double v;
-    return g->filter_column < 0 || !number_in(g, g->filter_column, &v) || v >= g->filter_least;
+
+    for (size_t i = 0; i < sizeof g->filter / sizeof *g->filter; i++)
+        if (number_in(g, g->filter[i].column, &v) && v < g->filter[i].least)
+            return 0;
+    return 1;
 }
 
 static void read_row(const take_grid *g, fap_take *take, uint32_t frame)

@@ -22,8 +22,14 @@ typedef struct take_grid {
     double time_scale;             /* seconds in a unit of the time column */
     double rate_hz, mm_per_unit;   /* 0: unknown */
     double scale[3];               /* every coordinate is multiplied with it */
-    int filter_column; /* rows whose cell here is a number below filter_least are missing; -1: none */
-    double filter_least;
+    /* Rows whose cell in a filter's column is a number below its least are missing. */
+    struct {
+        int column; /* -1: none */
+        double least;
+    } filter[2];
+    /* Rows whose cell here is another number than this are somebody else's and no rows at all; -1: none. */
+    int owner_column;
+    double owner;
     uint32_t point_count;
     grid_point point[FAP_TAKE_MAX_POINTS];
     text_row row;

@@ -215,6 +215,78 @@ TEST(openface, millimetres_in_the_cameras_frame_become_the_heads)
     fap_take_close(&take);
 }
 
+TEST(openface, what_the_tracker_calls_a_failure_is_missing)
+{
+    fap_take *take = read_ok(OPENFACE_HEAD "1, 0, 0.000, 0.98, 0, 300, 1, 2, 30, 4, 500, 6, 0\n"
+                                           "2, 0, 0.033, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n");
+
+    assert_null(fap_take_sample(take, 0, 0));
+    assert_non_null(fap_take_sample(take, 1, 0));
+    fap_take_close(&take);
+}
+
+TEST(openface, of_several_faces_the_one_seen_most_is_taken)
+{
+    fap_take *take = read_ok(OPENFACE_HEAD "1, 0, 0.000, 0.98, 1, 0, 9, 9, 9, 9, 9, 9, 0\n"
+                                           "1, 1, 0.000, 0.98, 1, 0, 1, 2, 3, 4, 5, 6, 0\n"
+                                           "2, 1, 0.033, 0.98, 1, 0, 1, 2, 3, 4, 5, 6, 0\n"
+                                           "3, 0, 0.0667, 0.98, 1, 0, 9, 9, 9, 9, 9, 9, 0\n"
+                                           "3, 1, 0.0667, 0.98, 1, 0, 1, 2, 3, 4, 5, 6, 0\n");
+
+    assert_int_equal(take->frame_count, 3);
+    for (uint32_t f = 0; f < 3; f++)
+        assert_sample(take, f, 0, 1, -3, -5);
+    assert_float_equal(take->rate_hz, 30, 1e-6);
+    assert_non_null(strstr(take->note[0], "2 faces"));
+    fap_take_close(&take);
+}
+
+/* Eyes 60 mm apart; corners 30 mm; and X_67, by which the format is known. */
+#define EYES_HEAD                                                                                            \
+    "X_36,X_39,X_42,X_45,X_67,Y_36,Y_39,Y_42,Y_45,Y_67,Z_36,Z_39,Z_42,Z_45,Z_67,frame,timestamp,confidence," \
+    "success"
+#define EYES "-45,-15,15,45,0,0,0,0,0,60,500,500,500,500,500,"
+
+static void assert_pupils(const fap_take *take, uint32_t frame, float x, float y)
+{
+    const int right = fap_take_find(take, "pupil_r"), left = fap_take_find(take, "pupil_l");
+
+    assert_sample(take, frame, (uint32_t)right, -30 + x, y, -500 + sqrtf(144 - x * x - y * y));
+    assert_sample(take, frame, (uint32_t)left, 30 + x, y, -500 + sqrtf(144 - x * x - y * y));
+}
+
+TEST(openface, where_the_eyes_look_becomes_pupils)
+{
+    static const char *const texts[] = {
+        EYES_HEAD ",gaze_0_x,gaze_0_y,gaze_0_z,gaze_1_x,gaze_1_y,gaze_1_z\n" EYES
+                  "1,0,1,1,0,0,-1,0,0,-1\n"                   /* into the camera */
+        EYES "2,0.04,1,1,0.5,0,-0.8660254,0.5,0,-0.8660254\n" /* the picture's right, the subject's left */
+        EYES "3,0.08,1,1,0,0.5,-0.8660254,0,0.5,-0.8660254\n" /* down */
+        EYES "4,0.12,1,1,0,0,0,0,0,0\n",
+        EYES_HEAD ",gaze_angle_x,gaze_angle_y\n" EYES "1,0,1,1,0,0\n" EYES "2,0.04,1,1,0.5235988,0\n" EYES
+                  "3,0.08,1,1,0,0.5235988\n" EYES "4,0.12,1,1,,\n",
+    };
+
+    for (int i = 0; i < 2; i++) {
+        fap_take *take = read_ok(texts[i]);
+        assert_string_equal(take->format, "openface");
+        assert_int_equal(take->point_count, 5 + 2);
+        assert_pupils(take, 0, 0, 0);
+        assert_pupils(take, 1, 6, 0);
+        assert_pupils(take, 2, 0, -6);
+        assert_null(fap_take_sample(take, 3, (uint32_t)fap_take_find(take, "pupil_l")));
+        fap_take_close(&take);
+    }
+}
+
+TEST(openface, gaze_beside_action_units_is_no_point)
+{
+    assert_refused(
+        "frame,timestamp,confidence,success,gaze_0_x,gaze_0_y,gaze_0_z,gaze_1_x,gaze_1_y,gaze_1_z,AU01_r\n"
+        "1,0,1,1,0,0,-1,0,0,-1,0.5\n",
+        FAP_E_UNSUPPORTED, "action units");
+}
+
 TEST(openface, times_of_an_image_sequence_are_no_rate)
 {
     fap_take *take = read_ok(OPENFACE_HEAD "1, 0, 0.001, 0.98, 1, 300, 1, 2, 30, 4, 500, 6, 0\n"
