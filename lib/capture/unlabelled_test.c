@@ -21,12 +21,17 @@ static void turn(const double r[3][3], double scale, float v[3])
 /* Somewhere in the middle of nowhere: no axis of the take is an axis of the head. */
 static const double askew[3][3] = { { 0.36, 0.48, -0.8 }, { -0.8, 0.6, 0 }, { 0.48, 0.64, 0.6 } };
 
-/* Point i becomes point i * stride mod count. */
+static uint32_t common_divisor(uint32_t a, uint32_t b)
+{
+    return b ? common_divisor(b, a % b) : a;
+}
+
+/* Point i becomes point i * stride mod count; coprime, so that no two become one. */
 static uint32_t new_place(uint32_t i, uint32_t count)
 {
     uint32_t stride = 7;
 
-    while (count % stride == 0)
+    while (common_divisor(count, stride) != 1)
         stride++;
     return (uint32_t)((uint64_t)i * stride % count);
 }
