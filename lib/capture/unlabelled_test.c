@@ -36,6 +36,12 @@ static uint32_t new_place(uint32_t i, uint32_t count)
     return (uint32_t)((uint64_t)i * stride % count);
 }
 
+/* A point that a reader has computed on a ball behind the lids is no marker: nobody meets it without its label. */
+static int is_marker(const fap_take *take, uint32_t point)
+{
+    return strncmp(take->name[point], "pupil_", 6) != 0;
+}
+
 static fap_take *anonymous(const fap_take *take, const double r[3][3], double scale)
 {
     const uint32_t n = take->point_count;
@@ -49,7 +55,7 @@ static fap_take *anonymous(const fap_take *take, const double r[3][3], double sc
         for (uint32_t i = 0; i < n; i++) {
             const float *at = fap_take_sample(take, f, i);
             float v[3];
-            if (!at)
+            if (!at || !is_marker(take, i))
                 continue;
             memcpy(v, at, sizeof v);
             turn(r, scale, v);
