@@ -45,13 +45,16 @@ JPEG    := $(call has,libjpeg)
 ZLIB    := $(call has,zlib)
 CAIRO   := $(call has,cairo)
 CMOCKA  := $(call has,cmocka)
+# It comes without a .pc file.
+EMBREE  := $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/null 2>&1 && echo 1)
 
 # --- sources ------------------------------------------------------------------------------------------------------
 notest    = $(filter-out %_test.c,$(1))
 TABLES   := $(wildcard fap_tables/*.csv)
 GEN      := $(TABLES:fap_tables/%.csv=$(B)/gen/%.h)
 LIB_SRC  := $(call notest,$(wildcard lib/base/*.c lib/param/*.c lib/codec/*.c lib/bank/*.c lib/dsp/*.c lib/dsp/*/*.c))
-STUDIO_SRC := $(call notest,$(wildcard lib/take/*.c lib/capture/*.c lib/track/*.c lib/speech/*.c lib/shape/*.c))
+STUDIO_SRC := $(call notest,$(wildcard lib/take/*.c lib/capture/*.c lib/track/*.c lib/speech/*.c lib/shape/*.c lib/registration/*.c) \
+              $(filter-out lib/surface/nearest_%,$(wildcard lib/surface/*.c)) lib/surface/nearest_$(if $(EMBREE),embree,none).c)
 COMMON_SRC := $(filter-out common/gpio/gpio_%,$(call notest,$(wildcard common/*.c common/*/*.c)))
 RENDER_SRC := $(call notest,$(wildcard player/render/*.c))
 ENC_SRC  := $(call notest,$(wildcard encoder/*.c encoder/*/*.c))
@@ -64,6 +67,7 @@ FILM_SRC := $(filter-out tests/track/main_%,$(call notest,$(wildcard tests/track
 obj       = $(patsubst %.c,$(B)/%.o,$(1))
 
 STUDIO_LIBS := $(if $(ZLIB),-lz) $(if $(JPEG),-ljpeg)
+SHAPE_LIBS  := $(STUDIO_LIBS) $(if $(EMBREE),-lembree3)
 RENDER_LIBS := $(if $(OSMESA),-lOSMesa) $(if $(EGL),-lEGL) $(if $(GLFW),-lglfw) $(if $(PNG),-lpng) $(if $(ZLIB),-lz)
 PLOT_LIBS   := $(RENDER_LIBS) $(if $(CAIRO),-lcairo)
 SOUND_LIBS  := $(if $(SNDFILE),-lsndfile)
@@ -126,20 +130,20 @@ $(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(B)/libfap-render.a $(BASE)
 $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC))) $(if $(IMGUI),$(B)/player/window/panel_imgui.o)
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
+	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(SHAPE_LIBS) -lm
 $(B)/libfap-databank.a: $(call obj,$(filter-out databank/main.c,$(BANK_SRC)))
 $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(STUDIO_LIBS) -lm
+	$(Q)$(LINK) $(RENDER_LIBS) $(SHAPE_LIBS) -lm
 
 # --- tests ---------------------------------------------------------------------------------------------------------
 FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildcard tests/fuzz/*.c)))
 REPLAY   := $(FUZZ:%=$(B)/replay/%)
-ALL_LIBS := $(PLOT_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
+ALL_LIBS := $(PLOT_LIBS) $(PLAY_LIBS) $(SHAPE_LIBS) -lm
 
 $(B)/mirror-film $(B)/mirror-compare $(B)/mirror-study: $(B)/mirror-%: $(B)/tests/track/main_%.o $(B)/libfap-film.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(STUDIO_LIBS) -lm
+	$(Q)$(LINK) $(SHAPE_LIBS) -lm
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-film.a $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
@@ -151,7 +155,7 @@ $(B)/fapplay $(B)/fapplay-lines: $(if $(SAN),$(B)/tests/asan/dlclose.o)
 # fapplay with lines that are files: tests/cli/window_lines.sh.
 $(B)/fapplay-lines: $(B)/player/main.o $(B)/tests/gpio/files.o $(B)/libfap-play.a $(B)/libfap-render.a $(filter-out $(B)/libfap-gpio-%,$(BASE))
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lpthread -lm
+	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(SHAPE_LIBS) -lpthread -lm
 
 # Streams written field by field (docs/conformance.md). Needs no cmocka: it runs wherever libfap does.
 CONF_SRC := $(wildcard tests/conformance/*.c)

@@ -139,6 +139,17 @@ double bench_glb_worst_mm(void);
 /* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */
 void bench_wave(fap_frame *frame, int t, int step);
 
+/* A face laid onto scans whose truth is known; X(name, method). */
+#define BENCH_REGISTRATION(X) X(auto, FAP_REGISTER_AUTO)
+#define X(name, method)                                                                                      \
+    double bench_fit_s_##name(void);                                                                         \
+    double bench_fit_surface_rms_mm_##name(void);                                                            \
+    double bench_fit_correspondence_rms_mm_##name(void);                                                     \
+    double bench_fit_folds_##name(void);                                                                     \
+    double bench_fit_wrong_lip_##name(void);
+BENCH_REGISTRATION(X)
+#undef X
+
 /* X(name, method, regions, residual): RMS in millimetres from feature points, the worst vertex, RMS from FAPs. */
 #define BENCH_FIDELITY(X)                                                                                    \
     X(rbf, FAP_BLEND_RBF, 1, 0)                                                                              \

@@ -31,7 +31,7 @@ enum {
     TEETH_END = 21451,
     EYE_END = 23021,
     EYES_END = 24591,
-    FACE_END = 9409
+    FACE_END = ICT_FACE_VERTICES
 };
 
 /* Shapes that no ARKit face has, or that faces in a bank are seldom made for. */
@@ -408,6 +408,11 @@ static int load_all(ict *f, loading *l)
         if (!read_shape(f, u))
             return 0;
     return build_bank(f, l) && reorder(f) && mark_face(f);
+}
+
+uint32_t ict_original(const ict *face, uint32_t vertex)
+{
+    return original(fap_bank_mesh(face->bank), vertex);
 }
 
 int ict_open(ict *face)

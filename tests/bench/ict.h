@@ -8,7 +8,12 @@
 
 #include <fap/bank.h>
 
-enum { ICT_UNITS_MAX = 64, ICT_MODELS = 20, ICT_PARTS = 6 };
+enum {
+    ICT_FACE_VERTICES = 9409 /* of the narrow face, the model's first */,
+    ICT_UNITS_MAX = 64,
+    ICT_MODELS = 20,
+    ICT_PARTS = 6
+};
 
 /* A face that the bank does not hold: shapes and how much of each. */
 typedef struct ict_model {
@@ -30,6 +35,8 @@ typedef struct ict {
 /* 0: not there. Close in either case. */
 int ict_open(ict *face);
 void ict_close(ict *face);
+/* The number the model's own file gives a vertex of the bank. */
+uint32_t ict_original(const ict *face, uint32_t vertex);
 /* One of ICT_MODELS held-out faces: the same each time. */
 void ict_model_get(const ict *face, int number, ict_model *model);
 /* Motion of every vertex, bank order. */
