@@ -100,10 +100,11 @@ void report_cleaning_say(const run_report *rep, const fap_capture_report *r)
         for (int kind = 0; kind < FAP_SAMPLE_KINDS; kind++)
             gaps_by[kind] += points[i].gaps_by[kind];
     add_methods(&methods, gaps_by);
-    tool_note(
-        "cleaned: %u spikes out, %u gaps closed (%u samples%s%s), %u gaps left, %u of feature points eased",
-        (unsigned)c->spikes, (unsigned)c->gaps_closed, (unsigned)c->samples_filled, methods.used ? ": " : "",
-        methods.text, (unsigned)c->gaps_left, (unsigned)r->gaps_eased);
+    tool_note("cleaned: %u spikes out, %u gaps closed (%u samples%s%s), %u gaps left, of feature points %u "
+              "by the bank, %u eased",
+              (unsigned)c->spikes, (unsigned)c->gaps_closed, (unsigned)c->samples_filled,
+              methods.used ? ": " : "", methods.text, (unsigned)c->gaps_left, (unsigned)r->gaps_by_bank,
+              (unsigned)r->gaps_eased);
     say_points(rep, r);
 }
 
@@ -135,6 +136,7 @@ void report_cleaning_json(json *j, const run_report *rep, const fap_capture_repo
     json_integer(j, "gaps_closed", r->clean.gaps_closed);
     json_integer(j, "samples_filled", r->clean.samples_filled);
     json_integer(j, "gaps_left", r->clean.gaps_left);
+    json_integer(j, "gaps_by_bank", r->gaps_by_bank);
     json_integer(j, "gaps_eased", r->gaps_eased);
     json_open(j, "markers", '{');
     for (uint32_t i = 0; i < r->take_points; i++)

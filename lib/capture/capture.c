@@ -195,8 +195,10 @@ static fap_err understand_face(performance *p)
         return err;
     rings_assign(p);
     points_place(p);
-    points_ease(p);
     err = fapu_settle(p);
+    if (err == FAP_OK)
+        err = points_by_bank(p);
+    points_ease(p);
     if (err == FAP_OK)
         err = points_retarget(p);
     if (err == FAP_OK)

@@ -66,7 +66,8 @@ fap_err axes_find(performance *p);
 void rings_assign(performance *p);
 /* Feature points of all frames and of the neutral face. */
 void points_place(performance *p);
-/* Long gaps, when asked for. */
+/* Long gaps, when asked for: by the bank, then with ease. */
+fap_err points_by_bank(performance *p);
 void points_ease(performance *p);
 fap_err fapu_settle(performance *p);
 void faps_extract(performance *p);

@@ -211,7 +211,10 @@ static void interpolate(performance *p, skin *s, int point, const rbf_mix *m)
         }
         if (!sees_all(p, m, f))
             mix_of_seen(p, s, f, point, &now);
-        p->seen[f][point] = (uint8_t)(now.count ? move(p, &now, f, p->point[f][point]) : FAP_SAMPLE_MISSING);
+        if (now.count)
+            p->seen[f][point] = (uint8_t)move(p, &now, f, p->point[f][point]);
+        else if (p->seen[f][point] != FAP_SAMPLE_BANK)
+            p->seen[f][point] = FAP_SAMPLE_MISSING;
     }
 }
 

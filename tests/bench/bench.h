@@ -48,6 +48,8 @@ double bench_track_fps(void);
 double bench_gap_fill_error_mm_5(void);
 double bench_gap_fill_error_mm_30(void);
 double bench_gap_fill_error_mm_120(void);
+/* The same of FAPs, where a marker is in sight for half a second at either end of the take. */
+double bench_gap_fill_error_mm_hardly(void);
 
 /* How far rigid markers still move when the head's motion is out. */
 double bench_head_residual_mm(void);

@@ -108,7 +108,8 @@ typedef struct fap_capture_report {
     double take_rate_hz, rate_hz, take_length_s;
     uint32_t take_frames, take_points, frames;
     fap_clean_report clean;
-    uint32_t gaps_eased;          /**< long gaps, per feature point */
+    uint32_t gaps_by_bank;        /**< long gaps, per feature point, closed by the bank's units */
+    uint32_t gaps_eased;          /**< others: eased from place to place */
     uint32_t frames_without_head; /**< too few rigid markers in sight */
     fap_origin rigid_origin;
     uint32_t rigid_count;

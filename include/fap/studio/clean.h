@@ -59,7 +59,7 @@ typedef struct fap_clean_point {
 
 /**
  * Clean in place. Gaps longer than 0.1 s are closed by the method that predicts the point best where it is seen, unless
- * none is better than a straight line.
+ * none is better than a straight line, or the point is seen for less than an eighth of the gap.
  * @param cfg     NULL: defaults. A take without a rate counts as 60 Hz.
  * @param points  [point_count], may be NULL
  * @return FAP_OK, FAP_E_NOMEM (spikes are out, gaps may be open)
