@@ -26,9 +26,9 @@ typedef struct record {
     int group;
     const uint8_t *name;
     unsigned name_length;
-    int is_group;
-    int type;              /* -1 char, 1 byte, 2 int16, 4 float */
-    unsigned dimension[2]; /* bytes of a text, texts */
+    int is_group, leads_back; /* the offset to the next one is negative: the chain ends in damage */
+    int type;                 /* -1 char, 1 byte, 2 int16, 4 float */
+    unsigned dimension[2];    /* bytes of a text, texts */
     const uint8_t *data;
     size_t data_size;
 } record;
@@ -122,6 +122,7 @@ static int next_record(const c3d *c, size_t *at, record *r)
         dimensions(c, offset_at + 3, r);
     }
     const int offset = s16_at(c, offset_at);
+    r->leads_back = offset < 0;
     *at = offset > 0 ? offset_at + (size_t)offset : c->record_limit;
     return 1;
 }
@@ -438,6 +439,81 @@ static void read_rate(const c3d *c, fap_take *take)
                   parameter);
 }
 
+/* --- what was tolerated --- */
+
+/* Group and name as one number, case folded: FNV-1a. */
+static uint32_t key_of(const record *r)
+{
+    uint32_t key = 2166136261u ^ (uint32_t)r->group;
+
+    for (unsigned i = 0; i < r->name_length; i++)
+        key = (key ^ (uint32_t)upper(r->name[i])) * 16777619u;
+    return key;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Walks the whole chain once. A name of no length ends it, or an offset of 0; anything else is damage. */
+static void note_chain(const c3d *c, fap_take *take)
+{
+    enum { CHECKED = 2048 };
+    const size_t section = c->first_record + (size_t)C3D_BLOCK * byte_at(c, c->first_record - 2) - 4;
+    uint32_t key[CHECKED];
+    unsigned count = 0, repeated = 0, outside = 0;
+    size_t at = c->first_record, last = at;
+    record r;
+
+    r.leads_back = 0;
+    for (; next_record(c, &at, &r) && !r.leads_back; last = at) {
+        outside += last >= section;
+        if (count < CHECKED && !r.is_group)
+            key[count++] = key_of(&r);
+    }
+    qsort(key, count, sizeof *key, by_key);
+    for (unsigned i = 1; i < count; i++)
+        repeated += key[i] == key[i - 1];
+    if (repeated)
+        take_note(take, "%u parameters repeat; the first of a name is used", repeated);
+    if (outside)
+        take_note(take, "%u parameters lie past the end of their section; they are read", outside);
+    if (r.leads_back || (last < c->record_limit && byte_at(c, last)))
+        take_note(take, "the record at byte %zu is no parameter; those before it are used", last);
+    else if (last > c->record_limit)
+        take_note(take, "the parameters run on into the data at byte %zu; those before it are used",
+                  c->record_limit);
+}
+
+static void note_frames(const c3d *c, fap_take *take)
+{
+    const unsigned first = u16_at(c, header_word(4)), last = u16_at(c, header_word(5));
+    const double header = last >= first ? last - first + 1.0 : 0, parameter = number_of(c, "FRAMES", header);
+    const unsigned header_start = u16_at(c, header_word(9));
+    const double start = number_of(c, "DATA_START", header_start);
+
+    if (last != 65535 && parameter != header)
+        take_note(take, "header says %.0f frames, POINT:FRAMES %.0f; the smaller is used", header, parameter);
+    if (start != header_start)
+        take_note(take, "header says that data start at block %u, POINT:DATA_START %.0f; the %s is used",
+                  header_start, start, header_start > 1 ? "header" : "latter");
+}
+
+static void note_labels(const c3d *c, fap_take *take)
+{
+    unsigned labels = 0;
+
+    for (unsigned part = 0; part < LABEL_PARTS && c->labels[part].data_size; part++)
+        labels += c->labels[part].dimension[1];
+    if (labels > c->points)
+        take_note(take, "%u labels for %u points; the first ones are used", labels, (unsigned)c->points);
+    if (take->point_count < c->points)
+        take_note(take, "%u points are angles, forces and the like: left out",
+                  (unsigned)(c->points - take->point_count));
+}
+
 static void note_differences(const c3d *c, fap_take *take, double stated)
 {
     const double scale = number_of(c, "SCALE", c->scale), used = number_of(c, "USED", c->points);
@@ -447,6 +523,10 @@ static void note_differences(const c3d *c, fap_take *take, double stated)
     if (used != c->points)
         take_note(take, "header says %u points, POINT:USED %g; the header is used", (unsigned)c->points,
                   used);
+    if (c->first_record < c->record_limit)
+        note_chain(c, take);
+    note_frames(c, take);
+    note_labels(c, take);
     if (c->scale > 0 && fabs(scale - c->scale) > 1e-4 * c->scale)
         take_note(take, "header scales by %g, POINT:SCALE %g; the header is used", c->scale, scale);
     if (take->frame_count < stated)

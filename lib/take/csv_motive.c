@@ -92,6 +92,27 @@ static void add_points(take_grid *g, const motive_head *h, const char *type)
     }
 }
 
+/* Columns X of a type and of names that are left out. */
+static unsigned count_columns(const motive_head *h, const char *type, int unlabeled)
+{
+    unsigned n = 0;
+
+    for (size_t c = 0; c < h->axis.count; c++)
+        n += is_position(h, c, "X", type) && text_starts(text_cell(&h->name, c), "Unlabeled") == unlabeled;
+    return n;
+}
+
+static void note_left_out(fap_take *take, const motive_head *h)
+{
+    const unsigned unlabeled = count_columns(h, "Marker", 1),
+                   bodies = count_columns(h, "Rigid Body", 0) + count_columns(h, "Bone", 0);
+
+    if (unlabeled)
+        take_note(take, "%u unlabeled points are left out", unlabeled);
+    if (bodies)
+        take_note(take, "%u rigid bodies and bones are left out; their markers are used", bodies);
+}
+
 static fap_err read_head(take_source *src, take_grid *g, motive_head *h)
 {
     text_lines lines = text_open(src->data, src->size);
@@ -121,6 +142,8 @@ static fap_err motive_read(take_source *src, fap_take **take)
     fap_err err = g && h ? read_head(src, g, h) : FAP_E_NOMEM;
     if (err == FAP_OK)
         err = grid_read(src, g, "motive", take);
+    if (err == FAP_OK)
+        note_left_out(*take, h);
     fap_mem_free(&src->alloc, h);
     grid_close(src, g);
     return err;

@@ -341,31 +341,121 @@ TEST(take, sizes_that_cannot_be_are_refused_before_allocating)
     assert_null(take);
 }
 
-TEST(take, real_text_files_read_or_say_why_not)
+TEST(trc, a_head_that_counts_wrong_is_named)
 {
-    static const struct {
-        const char *name;
-        fap_err err;
-        uint32_t points, frames;
-    } files[] = {
-        { "format_samples/Anto.trc", FAP_OK, 34, 128 },
-        { "format_samples/T.trc", FAP_OK, 41, 89 },
-        { "format_samples/Truncated.trc", FAP_E_SYNTAX, 0, 0 },
-        { "format_samples/10002-20130626160334-Unnamed.trc", FAP_E_NOT_FOUND, 0, 0 },
-        { "format_samples/nexus_markers.csv", FAP_OK, 51, 580 },
-        { "format_samples/sample_optitrack_take.csv", FAP_OK, 3, 250 },
-        { "optical_animface/jaw_60hz.trc", FAP_OK, 41, 1590 },
-        { "optical_animface/eyebrows_60hz_nexus.csv", FAP_OK, 41, 902 },
-        { "optical_blenderface/Subject_01.csv", FAP_OK, 16, 1714 },
-    };
+    fap_take *take = read_ok(TRC_HEAD "\r\n1\t0.000\t1\t2\t3\t4\t5\t6\r\n");
 
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        fap_take *take;
+    assert_int_equal(take->note_count, 2);
+    assert_non_null(strstr(take->note[0], "announces 66 markers, line 4 names 2"));
+    assert_non_null(strstr(take->note[1], "announces 3 frames, there are 1"));
+    fap_take_close(&take);
+}
+
+/* What real files hold, what is wrong with them, and what is said about it: a piece of a note or of the error. */
+static const struct real_file {
+    const char *name;
+    fap_err err;
+    uint32_t points, frames;
+    double rate_hz;
+    const char *first, *says[3];
+} real_files[] = {
+    { "format_samples/10002-20130626160334-Unnamed.trc", FAP_E_NOT_FOUND, .says = { "names no marker" } },
+    { "format_samples/Anto.trc", FAP_OK, 34, 128, 100, "R.Poignee", { NULL } },
+    { "format_samples/Dance.c3d",
+      FAP_OK,
+      40,
+      499,
+      65.0533,
+      "Channel101",
+      { "past the end of their section", "header says 499 frames, POINT:FRAMES 500", "POINT:DATA_START 0" } },
+    { "format_samples/Dec_real.c3d", FAP_OK, 36, 89, 50, "RFT1", { "75 labels for 36 points" } },
+    { "format_samples/PiG_Calibration-FlatFoot-One.c3d",
+      FAP_OK,
+      112,
+      1,
+      100,
+      "LFHD",
+      { "139 parameters repeat", "26 points are angles" } },
+    { "format_samples/T.trc", FAP_OK, 41, 89, 30, "RFHD", { NULL } },
+    { "format_samples/TESTBPI.c3d", FAP_OK, 26, 450, 50, "RFT1", { "48 labels for 26 points" } },
+    { "format_samples/Truncated.trc", FAP_E_SYNTAX, .says = { "ends inside its head" } },
+    { "format_samples/bad_parameter_section.c3d",
+      FAP_OK,
+      45,
+      332,
+      120,
+      "P1",
+      { "into the data at byte 5632" } },
+    { "format_samples/nexus_markers.csv", FAP_OK, 51, 580, 100, "boite:gauche_ext", { NULL } },
+    { "format_samples/parameterOverflow.c3d", FAP_E_NOT_FOUND,
+      .says = { "all 101 frames of all 106 points" } },
+    { "format_samples/pc_int.c3d", FAP_OK, 36, 89, 50, "RFT1", { "75 labels for 36 points" } },
+    { "format_samples/sample_optitrack_take.csv",
+      FAP_OK,
+      3,
+      250,
+      120,
+      "Rigid Body 1:Marker1",
+      { "6 unlabeled", "1 rigid bodies" } },
+    { "format_samples/sgi_int.c3d",
+      FAP_OK,
+      36,
+      89,
+      50,
+      "RFT1",
+      { "75 labels for 36 points", "run on into the data" } },
+    { "format_samples/shd01.c3d", FAP_OK, 27, 237, 250, "AbcdeFghijk:RASI", { NULL } },
+    { "optical_animface/jaw_60hz.trc", FAP_OK, 41, 1590, 60, "ForeHead_M", { NULL } },
+    { "optical_animface/jaw_60hz.c3d", FAP_OK, 41, 1590, 60, "ForeHead_M", { NULL } },
+    { "optical_animface/eyebrows_60hz_int16.c3d", FAP_OK, 41, 902, 60, "ForeHead_M", { NULL } },
+    { "optical_animface/eyebrows_60hz_nexus.csv", FAP_OK, 41, 902, 60, "Face:ForeHead_M", { NULL } },
+    { "optical_blenderface/Subject_01.csv", FAP_OK, 16, 1714, 0, "CL7", { "no unit in the file" } },
+    { "optical_blenderface/Blender_Scalingdata.csv", FAP_E_UNKNOWN_FORMAT, .says = { "neither C3D" } },
+    { "openface/OpenFace_Test.csv", FAP_OK, 70, 100, 0, "0", { "image sequence without times" } },
+    { "openface/openfacer_lara_0001-0600.csv", FAP_OK, 70, 600, 30, "0", { NULL } },
+    { "openface/facsvatar_jt.csv", FAP_E_UNSUPPORTED, .says = { "action units" } },
+    { "mediapipe/wolfgang_facemesh478_24fps.csv", FAP_OK, 478, 240, 23.976, "0", { "no unit in the file" } },
+    { "mediapipe/face_noface_facemesh478.csv", FAP_OK, 478, 169, 26.3985, "0", { "no unit in the file" } },
+    { "ema/F01_B01_S01_R01_N.mat", FAP_OK, 8, 262, 100, "TR", { NULL } },
+    { "ema/ag501_0021.pos", FAP_OK, 8, 5021, 250, "Sensor1", { "8 of 16 channels", "have no names" } },
+    { "livelink/alex_rom_3.csv", FAP_E_UNSUPPORTED, .says = { "ARKit" } },
+    { "livelink/dao.gesichter", FAP_E_UNSUPPORTED, .says = { "ARKit" } },
+};
+
+static int is_said(const fap_take *take, const char *where, const char *piece)
+{
+    int said = strstr(where, piece) != NULL;
+
+    for (uint32_t i = 0; take && i < take->note_count; i++)
+        said |= strstr(take->note[i], piece) != NULL;
+    return said;
+}
+
+static void check_content(const struct real_file *f, const fap_take *take)
+{
+    if (take->point_count != f->points || take->frame_count != f->frames ||
+        strcmp(take->name[0], f->first) != 0 || fabs(take->rate_hz - f->rate_hz) > 1e-4)
+        fail_msg("%s: %u points, %u frames, %g Hz, %s first", f->name, take->point_count, take->frame_count,
+                 take->rate_hz, take->name[0]);
+}
+
+TEST(take, every_real_file_reads_or_says_why_not_and_names_its_faults)
+{
+    for (size_t i = 0; i < sizeof real_files / sizeof *real_files; i++) {
+        const struct real_file *f = &real_files[i];
         char where[FAP_ERROR_TEXT_SIZE];
-        assert_int_equal(test_read_shared(&take, files[i].name, where), files[i].err);
+        uint32_t expected = 0;
+        fap_take *take;
+        assert_int_equal(test_read_shared(&take, f->name, where), f->err);
         assert_true(take ? !*where : *where != 0);
-        if (take && (take->point_count != files[i].points || take->frame_count != files[i].frames))
-            fail_msg("%s: %u points, %u frames", files[i].name, take->point_count, take->frame_count);
+        if (take)
+            check_content(f, take);
+        for (; expected < 3 && f->says[expected]; expected++)
+            if (!is_said(take, where, f->says[expected]))
+                fail_msg("%s: nothing says '%s'", f->name, f->says[expected]);
+        if (take && take->note_count != expected)
+            fail_msg("%s: %u notes, %u expected; the last: %s", f->name, take->note_count, expected,
+                     take->note[take->note_count - 1]);
         fap_take_close(&take);
     }
 }

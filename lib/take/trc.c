@@ -36,7 +36,18 @@ static text field(const text_row *values, text_lines names, const char *name)
     return (text){ "", 0 };
 }
 
-static void read_fields(take_grid *g, text_lines names)
+/* What the head announces; 0: nothing. */
+typedef struct announced {
+    double markers, frames;
+} announced;
+
+static double count_in(const take_grid *g, text_lines names, const char *name)
+{
+    double v;
+    return text_number(field(&g->row, names, name), &v) == TEXT_NUMBER && v > 0 ? v : 0;
+}
+
+static void read_fields(take_grid *g, text_lines names, announced *a)
 {
     char unit[16] = "";
     const text u = field(&g->row, names, "Units");
@@ -45,6 +56,17 @@ static void read_fields(take_grid *g, text_lines names)
     g->mm_per_unit = fap_take_unit_mm(unit);
     if (text_number(field(&g->row, names, "DataRate"), &g->rate_hz) != TEXT_NUMBER)
         g->rate_hz = 0;
+    a->markers = count_in(g, names, "NumMarkers");
+    a->frames = count_in(g, names, "NumFrames");
+}
+
+static void note_counts(fap_take *take, const announced *a)
+{
+    if (a->markers > 0 && a->markers != take->point_count)
+        take_note(take, "the head announces %g markers, line 4 names %u; the names are used", a->markers,
+                  (unsigned)take->point_count);
+    if (a->frames > 0 && a->frames != take->frame_count)
+        take_note(take, "the head announces %g frames, there are %u", a->frames, (unsigned)take->frame_count);
 }
 
 static void read_names(take_grid *g)
@@ -65,7 +87,7 @@ static int split_next(take_grid *g, text_lines *lines)
     return 1;
 }
 
-static fap_err read_head(take_source *src, take_grid *g)
+static fap_err read_head(take_source *src, take_grid *g, announced *a)
 {
     text_lines lines = text_open(src->data, src->size);
     text line;
@@ -78,7 +100,7 @@ static fap_err read_head(take_source *src, take_grid *g)
     const text_lines names = lines;
     if (!text_next(&lines, &line) || !split_next(g, &lines))
         return take_fail(src, FAP_E_SYNTAX, "trc: ends inside its head, before the values of line 3");
-    read_fields(g, names);
+    read_fields(g, names, a);
     if (!split_next(g, &lines) || !text_starts(text_cell(&g->row, 0), "Frame"))
         return take_fail(src, FAP_E_SYNTAX, "trc: line 4 should begin with Frame# and name the markers");
     read_names(g);
@@ -92,14 +114,17 @@ static fap_err read_head(take_source *src, take_grid *g)
 static fap_err trc_read(take_source *src, fap_take **take)
 {
     take_grid *g = grid_open(src);
+    announced a = { 0, 0 };
 
     if (!g)
         return FAP_E_NOMEM;
-    fap_err err = read_head(src, g);
+    fap_err err = read_head(src, g, &a);
     if (err == FAP_OK)
         err = grid_read(src, g, "trc", take);
-    if (err == FAP_OK)
+    if (err == FAP_OK) {
         take_drop_zeros(*take);
+        note_counts(*take, &a);
+    }
     grid_close(src, g);
     return err;
 }
