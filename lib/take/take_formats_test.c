@@ -419,7 +419,7 @@ static const struct real_file {
     { "ema/F01_B01_S01_R01_N.mat", FAP_OK, 8, 262, 100, "TR", { NULL } },
     { "ema/ag501_0021.pos", FAP_OK, 8, 5021, 250, "Sensor1", { "8 of 16 channels", "have no names" } },
     { "livelink/alex_rom_3.csv", FAP_E_UNSUPPORTED, .says = { "ARKit" } },
-    { "livelink/dao.gesichter", FAP_E_UNSUPPORTED, .says = { "ARKit" } },
+    { "livelink/dao.gesichter", FAP_E_UNKNOWN_FORMAT, .says = { "neither C3D" } },
 };
 
 static int is_said(const fap_take *take, const char *where, const char *piece)
