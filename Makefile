@@ -44,6 +44,7 @@ GPIO_LIBS   := $(if $(call has,libgpiod),$(shell $(PKG) --libs libgpiod))
 JPEG    := $(call has,libjpeg)
 ZLIB    := $(call has,zlib)
 CAIRO   := $(call has,cairo)
+ESPEAK  := $(call has,espeak-ng)
 CMOCKA  := $(call has,cmocka)
 # It comes without a .pc file.
 EMBREE  := $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/null 2>&1 && echo 1)
@@ -76,7 +77,7 @@ DEFS     := $(if $(GL),-DHAVE_GL) $(if $(OSMESA),-DHAVE_OSMESA) $(if $(EGL),-DHA
             $(if $(JPEG),-DHAVE_JPEG) $(if $(ZLIB),-DHAVE_ZLIB) $(if $(SDL2),-DHAVE_SDL2) $(if $(GLFW),-DHAVE_GLFW) $(if $(IMGUI),-DHAVE_IMGUI) \
             $(if $(CAIRO),-DHAVE_CAIRO)
 
-TOOLS    := $(B)/fapenc $(B)/fapplay $(B)/fapbank
+TOOLS    := $(B)/fapenc $(B)/fapplay $(B)/fapbank $(if $(ESPEAK),$(B)/fap-phonemes)
 LIBS     := $(B)/libfap.a $(B)/libfap-studio.a $(B)/libfap.so.$(VERSION)
 
 # Headers of libraries are not ours to warn about, and one driver file each includes them.
@@ -135,6 +136,11 @@ $(B)/libfap-databank.a: $(call obj,$(filter-out databank/main.c,$(BANK_SRC)))
 $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) $(RENDER_LIBS) $(SHAPE_LIBS) -lm
+
+# A program of its own, under espeak-ng's licence (phonemes/README.md): nothing else links that library.
+$(B)/fap-phonemes: $(B)/phonemes/fap_phonemes.o $(BASE)
+	$(call SAY,LD)
+	$(Q)$(LINK) $(shell $(PKG) --libs espeak-ng)
 
 # --- tests ---------------------------------------------------------------------------------------------------------
 FUZZ     := $(patsubst tests/fuzz/%.c,%,$(filter-out tests/fuzz/replay.c,$(wildcard tests/fuzz/*.c)))

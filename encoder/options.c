@@ -20,6 +20,7 @@ static const char help[] =
     "       fapenc IN -o OUT [options]         .fap or .fba to .fap or .fba; -o OUT.csv: ARKit's "
     "coefficients\n"
     "       fapenc inspect FILE [--planes]     what is inside a .fap or .fba\n"
+    "       fapenc [--speech SOUND] --phonemes FILE | --text WORDS -o OUT   a mouth that speaks\n"
     "       fapenc track VIDEO --init POINTS.csv -o TAKE.trc   dots in a video to a take; fapenc track "
     "--help\n"
     "\n"
@@ -59,6 +60,16 @@ static const char help[] =
     "                        capture. :falling, :active-low, :pull-up, :debounce=5ms, :timeout=10s "
     "(docs/gpio.md)\n"
     "\n"
+    "Speech (docs/speech.md):\n"
+    "      --speech SOUND    what is heard, WAV or any file of sound: how long it is and, with --text, when "
+    "it begins\n"
+    "      --phonemes FILE   what is said when: Praat TextGrid, Rhubarb JSON, or lines of start, end, "
+    "phoneme\n"
+    "      --tier NAME       of a TextGrid (the one that looks like phonemes)\n"
+    "      --text WORDS      what is said, by espeak-ng's rules (needs fap-phonemes)\n"
+    "      --language L      of the text (en-us)\n"
+    "      --lips            FAPs of lips, jaw and tongue instead of FAP 1\n"
+    "\n"
     "Bits (.fba), whatever the input:\n"
     "      --quant Q         keep the coarseness: 0 to 31; 1. At 0 values are sent as they are; those that a "
     "plane\n"
@@ -93,6 +104,9 @@ static const char help[] =
     "  fapenc take.fap --quant 4 --intra 50 --look-ahead 0 -o take.fba\n"
     "  fapenc take.fba -o take.fap\n"
     "  fapenc MySlate_1_iPhone.csv -o take.fap; fapenc take.fap -o take_livelink.csv\n"
+    "  fapenc --speech hello.wav --phonemes hello.TextGrid -o hello.fap; fapplay hello.fap --audio "
+    "hello.wav\n"
+    "  fapenc --speech hallo.wav --text \"Hallo Welt\" --language de -o hallo.fba\n"
     "  fapenc inspect take.fba\n"
     "  tracker | fapenc - --trigger gpiochip0:17:pull-up:falling -o take.fba\n"
     "\n"
@@ -116,6 +130,12 @@ enum {
     OPT_PLOT,
     OPT_BATCH,
     OPT_TO,
+    OPT_SPEECH,
+    OPT_PHONEMES,
+    OPT_TIER,
+    OPT_TEXT,
+    OPT_LANGUAGE,
+    OPT_LIPS,
     OPT_TRIGGER,
     OPT_QUANT,
     OPT_BITRATE,
@@ -159,6 +179,12 @@ static const struct option long_options[] = {
     { "jobs", required_argument, NULL, 'j' },
     { "to", required_argument, NULL, OPT_TO },
     { "plot", required_argument, NULL, OPT_PLOT },
+    { "speech", required_argument, NULL, OPT_SPEECH },
+    { "phonemes", required_argument, NULL, OPT_PHONEMES },
+    { "tier", required_argument, NULL, OPT_TIER },
+    { "text", required_argument, NULL, OPT_TEXT },
+    { "language", required_argument, NULL, OPT_LANGUAGE },
+    { "lips", no_argument, NULL, OPT_LIPS },
     { "trigger", required_argument, NULL, OPT_TRIGGER },
     { "quant", required_argument, NULL, OPT_QUANT },
     { "bitrate", required_argument, NULL, OPT_BITRATE },
@@ -349,6 +375,12 @@ static int parse_option(options *opt, int c, const char *arg)
     case 'j': return whole_number(opt, "jobs", arg, 1, 256, &opt->jobs);
     case OPT_TO: return parse_to(opt, arg);
     case OPT_PLOT: return parse_plot(opt, arg);
+    case OPT_SPEECH: opt->speech.sound = arg; return 1;
+    case OPT_PHONEMES: opt->speech.phonemes = arg; return 1;
+    case OPT_TIER: opt->speech.tier = arg; return 1;
+    case OPT_TEXT: opt->speech.text = arg; return 1;
+    case OPT_LANGUAGE: opt->speech.language = arg; return 1;
+    case OPT_LIPS: opt->speech.lips = 1; return 1;
     case OPT_TRIGGER: return parse_trigger(opt, arg);
     case OPT_QUANT:
         return set_rate(opt, "--quant", FAP_ENCODE_QUANT) &&
@@ -418,31 +450,72 @@ static int check_batch(options *opt)
     return usage(opt);
 }
 
+static int is_speech(const options *opt)
+{
+    const speech_options *s = &opt->speech;
+    return s->sound || s->phonemes || s->text || s->language || s->tier || s->lips;
+}
+
+static int check_output(options *opt)
+{
+    if (!opt->output)
+        tool_error("where to? -o OUT.fap, or -o - for standard output");
+    else if (opt->json && !strcmp(opt->output, "-"))
+        tool_error("-o - and --json would both write to standard output");
+    else if (opt->learn_path && !options_want_bits(opt))
+        tool_error("--learn-fit %s: a table is learnt for an .fba that is written, -o OUT.fba",
+                   opt->learn_path);
+    else if (opt->learn_path && !strcmp(opt->learn_path, opt->output))
+        tool_error("--learn-fit and -o name the same file");
+    else if (opt->plot_path && !strcmp(opt->plot_path, opt->output))
+        tool_error("--plot and -o name the same file");
+    else
+        return 1;
+    return usage(opt);
+}
+
+/* The phonemes stand where a take would. */
+static int check_speech(options *opt)
+{
+    speech_options *s = &opt->speech;
+
+    if (opt->command != COMMAND_ENCODE || opt->input)
+        tool_error(
+            "speech is no take: --speech SOUND --phonemes FILE, or --text WORDS, and nothing else to read");
+    else if (!s->phonemes == !s->text)
+        tool_error("what is said? Either --phonemes FILE or --text WORDS");
+    else if (s->tier && !s->phonemes)
+        tool_error("--tier is of --phonemes FILE.TextGrid");
+    else if (s->language && !s->text)
+        tool_error("--language is of --text WORDS");
+    else if (options_want_livelink(opt))
+        tool_error("-o %s: speech becomes FAPs, .fap or .fba; those become a .csv", opt->output);
+    else {
+        opt->command = COMMAND_SPEECH;
+        opt->input = s->phonemes ? s->phonemes : "speech";
+        s->language = s->language ? s->language : "en-us";
+        return check_output(opt);
+    }
+    return usage(opt);
+}
+
 static int check(options *opt)
 {
     if (opt->command != COMMAND_BATCH && (opt->jobs || opt->to_given))
         tool_error("--jobs and --to belong to --batch FOLDER");
     else if (!opt->input)
         tool_error("what to read? fapenc TAKE -o OUT.fap; fapenc --help tells more");
-    else if (opt->command == COMMAND_ENCODE && !opt->output)
-        tool_error("where to? -o OUT.fap, or -o - for standard output");
-    else if (opt->command == COMMAND_ENCODE && opt->json && !strcmp(opt->output, "-"))
-        tool_error("-o - and --json would both write to standard output");
-    else if (opt->learn_path && (opt->command == COMMAND_INSPECT || !options_want_bits(opt)))
+    else if (opt->learn_path && opt->command == COMMAND_INSPECT)
         tool_error("--learn-fit %s: a table is learnt for an .fba that is written, -o OUT.fba",
                    opt->learn_path);
-    else if (opt->learn_path && !strcmp(opt->learn_path, opt->output))
-        tool_error("--learn-fit and -o name the same file");
     else if (opt->planes && opt->command != COMMAND_INSPECT)
         tool_error("--planes belongs to fapenc inspect");
     else if (opt->command == COMMAND_INSPECT && gpio_spec_given(&opt->trigger))
         tool_error("--trigger starts a capture; fapenc inspect has none");
     else if (opt->command == COMMAND_INSPECT && opt->plot_path)
         tool_error("--plot draws what is encoded; fapenc inspect encodes nothing");
-    else if (opt->plot_path && opt->output && !strcmp(opt->plot_path, opt->output))
-        tool_error("--plot and -o name the same file");
     else
-        return check_span(opt);
+        return (opt->command == COMMAND_INSPECT || check_output(opt)) && check_span(opt);
     return usage(opt);
 }
 
@@ -482,5 +555,7 @@ int options_parse(options *opt, int argc, char **argv)
         tool_error("one input at a time, not also %s", argv[optind]);
         return usage(opt);
     }
+    if (is_speech(opt))
+        return check_speech(opt);
     return opt->command == COMMAND_BATCH ? check_batch(opt) : check(opt);
 }

@@ -9,7 +9,14 @@
 #include "common/gpio/spec.h"
 #include "encoder/neutral.h"
 
-typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT, COMMAND_BATCH } command;
+typedef enum command { COMMAND_ENCODE, COMMAND_INSPECT, COMMAND_BATCH, COMMAND_SPEECH } command;
+
+/* What is said, and how it was recorded. */
+typedef struct speech_options {
+    const char *sound, *phonemes, *text; /* files, and words; NULL: not given */
+    const char *language, *tier;
+    int lips; /* FAPs of lips, jaw and tongue instead of FAP 1 */
+} speech_options;
 
 typedef struct options {
     command command;
@@ -24,8 +31,9 @@ typedef struct options {
     const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */
     const char *bank_path;   /* the face that errors are measured on; NULL: find one; "builtin" */
     const char *fit_path, *learn_path;
-    gpio_spec trigger;      /* the line whose edge is waited for; no chip: none */
-    const char *plot_path;  /* NULL: no plot */
+    gpio_spec trigger;     /* the line whose edge is waited for; no chip: none */
+    const char *plot_path; /* NULL: no plot */
+    speech_options speech;
     const char *batch_path; /* the folder whose takes are encoded; NULL: one take */
     int jobs;               /* takes at a time; 0: as many as there are processors */
     int to_given;

@@ -10,6 +10,7 @@
 #include "encoder/report_coefficients.h"
 #include "encoder/report_inspect.h"
 #include "encoder/report_written.h"
+#include "encoder/speech/report_speech.h"
 
 static void say_stream_notes(const run_report *rep)
 {
@@ -43,7 +44,9 @@ static void report_success(const options *opt, const run_report *rep)
         (opt->json ? inspect_json : inspect_say)(opt, rep);
         return;
     }
-    if (rep->capture)
+    if (rep->spoken.speech)
+        (opt->json ? report_speech_json : report_speech_say)(opt, rep);
+    else if (rep->capture)
         (opt->json ? report_capture_json : report_capture_say)(opt, rep);
     else if (rep->performance)
         (opt->json ? report_coefficients_json : report_coefficients_say)(opt, rep);

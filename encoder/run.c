@@ -252,6 +252,20 @@ static fap_err encode_coefficients(const options *opt, run_report *rep)
     return err == FAP_OK ? write_performance(opt, rep) : fail(rep, err, opt->input, where);
 }
 
+static fap_err encode_speech(const options *opt, run_report *rep)
+{
+    char where[FAP_ERROR_TEXT_SIZE];
+    const char *path = opt->input;
+    fap_ascii_header header = { .version = "2.1", .rate_hz = opt->capture.rate_hz, .present = 1 };
+
+    const fap_err err = spoken_make(&rep->spoken, opt, &path, &rep->no_device, where);
+    if (err != FAP_OK)
+        return *where ? fail(rep, err, path, where) : fail_errno(rep, err, path);
+    sequence_name(opt->input, header.name, sizeof header.name);
+    const frame_source src = { .frames = rep->spoken.frame, .count = rep->spoken.frame_count };
+    return write_output(opt, rep, &header, &src);
+}
+
 /* @p where: why it is no capture. A text that has no frame is taken for one. */
 static fap_err encode_stream(const options *opt, run_report *rep, const uint8_t *data, size_t size,
                              const char *where)
@@ -318,6 +332,8 @@ fap_err run(const options *opt, run_report *rep)
     const fap_err waited = await_trigger(opt, rep);
     if (waited != FAP_OK)
         return waited;
+    if (opt->command == COMMAND_SPEECH)
+        return encode_speech(opt, rep);
     errno = 0;
     const fap_err read = file_read(opt->input, max_input, &data, &size);
     if (read != FAP_OK)
@@ -329,6 +345,7 @@ fap_err run(const options *opt, run_report *rep)
 
 void run_close(run_report *rep)
 {
+    spoken_close(&rep->spoken);
     fap_take_close(&rep->take);
     fap_capture_close(&rep->capture);
     fap_coefficients_close(&rep->coefficients);

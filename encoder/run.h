@@ -11,6 +11,7 @@
 #include "encoder/livelink.h"
 #include "encoder/options.h"
 #include "encoder/output.h"
+#include "encoder/speech/spoken.h"
 
 /* Everything that report.c needs; parts that do not apply are empty. */
 typedef struct run_report {
@@ -20,6 +21,7 @@ typedef struct run_report {
     fap_capture *capture;
     fap_coefficients *coefficients; /* as read, where it has no points */
     fap_performance *performance;
+    spoken spoken; /* its speech is NULL where nothing is said */
     stream_summary stream;
     inspection *inspection; /* of an .fba that was inspected */
     stream_options reading;

@@ -38,6 +38,10 @@ static void describe(const run_report *rep, const plot_content *p, char *out)
         describe_capture(fap_capture_report_get(rep->capture), out);
     else if (rep->performance)
         describe_coefficients(fap_performance_report(rep->performance), out);
+    else if (rep->spoken.speech)
+        snprintf(out, SUBTITLE_SIZE, "%s, %u sounds, %.2f s; %zu FAP frames at %g Hz",
+                 rep->spoken.speech->format, (unsigned)rep->spoken.mouth.sounds, rep->spoken.speech->length_s,
+                 p->frame_count, p->rate_hz);
     else
         snprintf(out, SUBTITLE_SIZE, "%zu FAP frames at %g Hz", p->frame_count, p->rate_hz);
 }
