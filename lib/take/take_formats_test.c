@@ -125,6 +125,20 @@ TEST(motive, markers_are_kept_and_bodies_are_not)
     fap_take_close(&take);
 }
 
+TEST(motive, a_time_code_column_is_in_nobodys_way)
+{
+    fap_take *take =
+        read_ok(MOTIVE_HEAD ",,Type,Marker,Marker,Marker\n,,Name,A:Chin,A:Chin,A:Chin\n,,ID,1,1,1\n"
+                            ",,,Position,Position,Position\nFrame,Time,TimeCode,X,Y,Z\n"
+                            "0,0.0,10:20:30:01,1,2,3\n2,0.0167,10:20:30:03,1,2,3\n");
+
+    assert_int_equal(take->point_count, 1);
+    assert_int_equal(take->frame_count, 3);
+    assert_sample(take, 0, 0, 10, 20, 30);
+    assert_null(fap_take_sample(take, 1, 0)); /* a dropped frame */
+    fap_take_close(&take);
+}
+
 TEST(motive, a_take_without_markers_says_so)
 {
     assert_refused(MOTIVE_HEAD "Frame,Time,X,Y,Z\n0,0,1,2,3\n", FAP_E_NOT_FOUND, "Marker");
@@ -181,6 +195,48 @@ TEST(table, the_user_knows_rate_and_unit_better)
     assert_sample(take, 1, 0, 8, 10, 12);
     assert_true(take->unit_known);
     fap_take_close(&take);
+}
+
+TEST(take, a_head_whose_rate_the_times_deny_is_named)
+{
+    fap_take *take = read_ok("PathFileType\t4\t(X/Y/Z)\tx.trc\nDataRate\tUnits\n60\tmm\n"
+                             "Frame#\tTime\tA\t\t\n\t\tX1\tY1\tZ1\n1\t0.000\t1\t2\t3\n2\t0.005\t1\t2\t3\n");
+
+    assert_float_equal(take->rate_hz, 60, 0);
+    assert_non_null(strstr(take->note[0], "the times say 200"));
+    fap_take_close(&take);
+}
+
+TEST(take, a_point_is_found_behind_its_subjects_name)
+{
+    fap_take *take =
+        read_ok("Anna:Set 2:Chin_x,Anna:Set 2:Chin_y,Anna:Set 2:Chin_z,Nose_x,Nose_y,Nose_z\n1,2,3,4,5,6\n");
+
+    assert_int_equal(fap_take_find(take, "chin"), 0);
+    assert_int_equal(fap_take_find(take, "anna:set 2:chin"), 0);
+    assert_int_equal(fap_take_find(take, "Anna:Nose"), -1);
+    assert_int_equal(fap_take_find(take, "NOSE"), 1);
+    fap_take_close(&take);
+}
+
+TEST(table, points_of_known_models_are_numbers_whatever_stands_in_front)
+{
+    test_bytes b = { 0 };
+    char cell[64];
+    fap_take *take;
+
+    for (int i = 0; i < 68 * 3; i++)
+        test_bytes_write(
+            &b, cell,
+            (size_t)snprintf(cell, sizeof cell, "%slandmark_%d_%c", i ? "," : "", i / 3, 'x' + i % 3));
+    test_bytes_write(&b, "\n", 1);
+    for (int i = 0; i < 68 * 3; i++)
+        test_bytes_write(&b, cell, (size_t)snprintf(cell, sizeof cell, "%s%d", i ? "," : "", i));
+    assert_int_equal(fap_take_read(&take, b.data, b.size, NULL, NULL), FAP_OK);
+    assert_string_equal(take->name[0], "0");
+    assert_string_equal(take->name[67], "67");
+    fap_take_close(&take);
+    free(b.data);
 }
 
 TEST(table, names_that_repeat_or_are_too_long_stay_apart)
