@@ -6,6 +6,7 @@
 
 #include "encoder/plot/plot.h"
 #include "encoder/plot/sheet.h"
+#include "encoder/setup.h"
 
 /* Room for a path's last part. */
 enum { TITLE_SIZE = 256, SUBTITLE_SIZE = 512 };
@@ -103,7 +104,8 @@ typedef struct face_map {
     plot_marker *marker;
 } face_map;
 
-static fap_err open_map(face_map *m, plot_content *p, const run_report *rep)
+/* The face is the one that the markers were placed on. */
+static fap_err open_map(face_map *m, plot_content *p, const options *opt, const run_report *rep, char *where)
 {
     *m = (face_map){ .marker = calloc((size_t)rep->take->point_count + 1, sizeof *m->marker) };
     if (!m->marker)
@@ -112,7 +114,7 @@ static fap_err open_map(face_map *m, plot_content *p, const run_report *rep)
     if (!p->marker_count)
         return FAP_OK;
     p->marker = m->marker;
-    const fap_err err = fap_bank_builtin(&m->bank, NULL);
+    const fap_err err = encoder_bank_read(&m->bank, opt->bank_path ? opt->bank_path : "builtin", where);
     p->bank = m->bank;
     return err;
 }
@@ -129,7 +131,7 @@ static fap_err write_capture(const options *opt, const run_report *rep, plot_con
 
     p->filled = is_filled;
     p->user = rep->capture;
-    fap_err err = open_map(&map, p, rep);
+    fap_err err = open_map(&map, p, opt, rep, where);
     if (err == FAP_OK)
         err = plot_write(opt->plot_path, p, where);
     close_map(&map);
