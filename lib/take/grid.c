@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "take/clock.h"
 #include "take/grid.h"
 
 /* What a first pass over the rows finds out. */
@@ -184,6 +185,37 @@ static void name_points(const take_grid *g, fap_take *take)
     take_finish_names(take);
 }
 
+/* Rows that nothing but their times places. */
+static int needs_clock(const take_grid *g, const row_census *c)
+{
+    return c->timed && !c->numbered && !(g->rate_hz > 0);
+}
+
+static void read_times(take_grid *g, take_clock *clock, uint32_t rows)
+{
+    text_lines lines = g->body;
+
+    for (uint32_t row = 0; row < rows && next_row(g, &lines); row++)
+        number_in(g, g->time_column, &clock->time[row]);
+}
+
+static fap_err place_by_time(take_source *src, take_grid *g, fap_take **take)
+{
+    take_clock clock = { .unit_s = g->time_scale, .timed = 1 };
+
+    if (!take_clock_open(src, &clock, (*take)->frame_count))
+        return FAP_E_NOMEM;
+    read_times(g, &clock, (*take)->frame_count);
+    const double mean_hz = (*take)->rate_hz;
+    fap_err err = FAP_OK;
+    if (mean_hz > 0) /* else they are no times */
+        err = take_clock_settle(&clock, take);
+    if (err == FAP_OK && !((*take)->rate_hz > 0))
+        (*take)->rate_hz = mean_hz;
+    take_clock_close(src, &clock);
+    return err == FAP_OK ? err : take_fail(src, err, "no room for the frames that the times leave out");
+}
+
 fap_err grid_read(take_source *src, take_grid *g, const char *format, fap_take **out)
 {
     const row_census c = take_census(g);
@@ -208,5 +240,5 @@ fap_err grid_read(take_source *src, take_grid *g, const char *format, fap_take *
     read_rows(g, &c, take);
     if (frames > c.rows)
         take_note(take, "%llu frames are absent", (unsigned long long)(frames - c.rows));
-    return FAP_OK;
+    return needs_clock(g, &c) ? place_by_time(src, g, out) : FAP_OK;
 }

@@ -5,24 +5,19 @@
  * is taken, or an object that has one of both beside its time. A point is {"x":, "y":, "z":} or [x, y, z]. Blendshapes beside
  * the points are left alone. Source: the shapes of MediaPipe's results in Python and JavaScript.
  */
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/mem.h"
+#include "take/clock.h"
 #include "take/json_text.h"
 #include "take/picture.h"
 
 /* One pass over the file; without a take it only counts. */
 typedef struct pass {
     fap_take *take;
-    double *time; /* [frames], in the file's unit, or a frame's number; NAN: unknown */
-    double *step; /* room for as many */
+    take_clock clock;
     uint32_t frames, points, faces_left_out, flat;
-    double width, height, rate_hz;
-    double time_unit_s; /* 0: the key does not say */
-    int timed;          /* not only numbered */
+    double width, height;
 } pass;
 
 static int is_one_of(text t, const char *const *words)
@@ -190,7 +185,7 @@ static void read_face(json_text *j, pass *p, int depth)
 static void put_time(pass *p, double t)
 {
     if (has_row(p))
-        p->time[p->frames] = t;
+        p->clock.time[p->frames] = t;
 }
 
 static void read_time(json_text *j, pass *p, double unit_s)
@@ -199,8 +194,8 @@ static void read_time(json_text *j, pass *p, double unit_s)
 
     if (!json_text_number(j, &t))
         return;
-    p->time_unit_s = unit_s;
-    p->timed = 1;
+    p->clock.unit_s = unit_s;
+    p->clock.timed = 1;
     put_time(p, t);
 }
 
@@ -209,7 +204,7 @@ static void read_number(json_text *j, pass *p)
 {
     double number;
 
-    if (json_text_number(j, &number) && !p->timed)
+    if (json_text_number(j, &number) && !p->clock.timed)
         put_time(p, number);
 }
 
@@ -221,7 +216,7 @@ static int read_fact(json_text *j, pass *p, text key)
     else if (is_one_of(key, height_keys))
         json_text_number(j, &p->height);
     else if (is_one_of(key, rate_keys))
-        json_text_number(j, &p->rate_hz);
+        json_text_number(j, &p->clock.rate_hz);
     else
         return 0;
     return 1;
@@ -368,105 +363,6 @@ static int landmarks_claim(const uint8_t *data, size_t size)
     return 0;
 }
 
-/* --- time --- */
-
-/* The unit of times whose key does not say it, from their usual step: nobody films below 2 or above 500 frames a second. */
-static double guess_unit_s(double step)
-{
-    return step >= 2000 ? 1e-6 : step >= 2 ? 1e-3 : 1;
-}
-
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Half of the steps are longer; 0: there are no times, or they run back. @p step: room for as many as there are rows. */
-static double median_step(const double *time, double *step, uint32_t count)
-{
-    if (count < 2)
-        return 0;
-    for (uint32_t i = 0; i + 1 < count; i++) {
-        step[i] = time[i + 1] - time[i];
-        if (!(step[i] >= 0)) /* NAN too */
-            return 0;
-    }
-    qsort(step, count - 1, sizeof *step, by_size);
-    return step[(count - 2) / 2]; /* the lower one: gaps make steps longer, never shorter */
-}
-
-/* The same rows at their times: what a camera or a script left out becomes a gap. */
-static fap_err spread_rows(fap_take **take, const double *time, double per_frame, uint32_t frames)
-{
-    fap_take *t = *take, *wide;
-    const fap_err err = fap_take_create(&wide, t->point_count, frames, &t->alloc);
-
-    if (err != FAP_OK)
-        return err;
-    for (uint32_t f = 0; f < t->frame_count; f++) {
-        const double at = floor((time[f] - time[0]) / per_frame + 0.5);
-        const uint32_t to = at < frames ? (uint32_t)at : frames - 1;
-        for (uint32_t p = 0; p < t->point_count; p++) {
-            const float *v = fap_take_sample(t, f, p);
-            if (v)
-                fap_take_set(wide, to, p, v);
-        }
-    }
-    take_note(wide, "the times leave out %u frames; they are gaps", (unsigned)(frames - t->frame_count));
-    fap_take_close(take);
-    *take = wide;
-    return FAP_OK;
-}
-
-/* What the times of all rows say, jittery as they may be. */
-typedef struct clock_reading {
-    double step;     /* between rows, in the unit of the times; 0: they say nothing */
-    double rate_hz;  /* 0: unknown */
-    uint32_t frames; /* with those that are left out */
-} clock_reading;
-
-static double rate_of_times(const pass *p, const clock_reading *c, uint32_t rows, double length, int dropped)
-{
-    const double unit_s = p->time_unit_s > 0 ? p->time_unit_s : guess_unit_s(c->step);
-
-    if (!p->timed)
-        return p->rate_hz / c->step; /* every second picture of a film has every second number */
-    return take_usual_rate(dropped ? 1 / (c->step * unit_s) : (rows - 1) / (length * unit_s));
-}
-
-static clock_reading read_clock(const pass *p, uint32_t rows)
-{
-    static const double few = 0.02; /* where hardly anything is left out the mean is better than the median */
-    clock_reading c = { .step = median_step(p->time, p->step, rows), .rate_hz = p->rate_hz, .frames = rows };
-    const double length = c.step > 0 ? p->time[rows - 1] - p->time[0] : 0;
-
-    if (!(c.step > 0) || !isfinite(length / c.step))
-        return (clock_reading){ .rate_hz = p->rate_hz, .frames = rows };
-    const double frames = floor(length / c.step + 0.5) + 1;
-    const int dropped = p->timed ? frames > rows * (1 + few) : frames > rows;
-    c.rate_hz = rate_of_times(p, &c, rows, length, dropped);
-    if (dropped && frames < 4. * rows + 100) /* beyond it the times mean something else */
-        c.frames = (uint32_t)frames;
-    return c;
-}
-
-static fap_err settle_time(const pass *p, fap_take **take)
-{
-    const clock_reading c = read_clock(p, (*take)->frame_count);
-
-    if (c.frames > (*take)->frame_count) {
-        const fap_err err = spread_rows(take, p->time, c.step, c.frames);
-        if (err != FAP_OK)
-            return err;
-    }
-    (*take)->rate_hz = c.rate_hz;
-    if (p->timed && p->rate_hz > 0 && fabs(c.rate_hz - p->rate_hz) > 0.02 * p->rate_hz)
-        take_note(*take, "the file says %g frames a second, its times say %.4g; the times are used",
-                  p->rate_hz, c.rate_hz);
-    return FAP_OK;
-}
-
 /* --- reading --- */
 
 static void name_by_number(fap_take *take)
@@ -492,7 +388,7 @@ static fap_err fill_take(json_text j, pass *p, fap_take **take)
 {
     j = read_file(j, p);
     name_by_number(*take);
-    const fap_err err = settle_time(p, take);
+    const fap_err err = take_clock_settle(&p->clock, take);
     if (err != FAP_OK)
         return err;
     note_oddities(*take, p, j.bad);
@@ -519,13 +415,9 @@ static fap_err landmarks_read(take_source *src, fap_take **take)
         return take_fail(src, err, "JSON: no room for %u frames of %u points", (unsigned)count.frames,
                          (unsigned)count.points);
     pass fill = { .take = *take };
-    fill.time = fap_mem_calloc(&src->alloc, count.frames, 2 * sizeof *fill.time);
-    fill.step = fill.time ? fill.time + count.frames : NULL;
-    for (uint32_t f = 0; fill.time && f < count.frames; f++)
-        fill.time[f] = NAN;
-    err = fill.time ? fill_take(j, &fill, take) : FAP_E_NOMEM;
-    fap_mem_free(&src->alloc, fill.time);
-    return err;
+    err = take_clock_open(src, &fill.clock, count.frames) ? fill_take(j, &fill, take) : FAP_E_NOMEM;
+    take_clock_close(src, &fill.clock);
+    return err == FAP_OK ? err : take_fail(src, err, "JSON: no room for the frames that the times leave out");
 }
 
 const take_driver take_driver_landmarks = { "landmarks JSON", landmarks_claim, landmarks_read };

@@ -96,6 +96,7 @@ TEST(landmarks, frames_that_were_left_out_are_gaps)
     assert_null(fap_take_sample(take, 3, 0));
     assert_non_null(fap_take_sample(take, 5, 0));
     assert_true(has_note(take, "leave out 2 frames"));
+    assert_string_equal(take->name[1], "1");
     fap_take_close(&take);
 
     take = read_ok("{\"fps\":50,\"frames\":[" NUMBERED("2") "," NUMBERED("4") "," NUMBERED("8") "]}");

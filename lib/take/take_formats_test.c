@@ -181,6 +181,19 @@ TEST(table, times_give_the_rate)
     fap_take_close(&take);
 }
 
+TEST(table, rows_without_numbers_are_placed_by_their_times)
+{
+    fap_take *take = read_ok("time,a_x,a_y,a_z\n0,1,2,3\n0.04,1,2,3\n0.08,1,2,3\n0.20,4,5,6\n0.24,1,2,3\n");
+
+    assert_float_equal(take->rate_hz, 25, 1e-6);
+    assert_int_equal(take->frame_count, 7);
+    assert_string_equal(take->name[0], "a");
+    assert_null(fap_take_sample(take, 3, 0));
+    assert_non_null(fap_take_sample(take, 5, 0));
+    assert_non_null(strstr(take->note[0], "leave out 2 frames"));
+    fap_take_close(&take);
+}
+
 TEST(table, the_user_knows_rate_and_unit_better)
 {
     static const char text[] = "a_x,a_y,a_z\n1,2,3\n4,5,6\n";
