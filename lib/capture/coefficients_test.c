@@ -214,6 +214,17 @@ TEST(coefficients, rest_becomes_zero_and_full_stays_full)
     assert_true(encode(&s)->neutral_s < 1.6);
     assert_int_equal(value(&s, 5, 59), 0);
     s.cfg.rest = FAP_REST_FRAME;
+    s.cfg.neutral_frame = 38;
+    s.cfg.neutral_last = 41; /* half of it is the one pose, half the other */
+    encode(&s);
+    assert_int_equal(value(&s, 5, 49), -10000);
+    assert_int_equal(value(&s, 45, 49), 10000);
+    s.cfg.neutral_last = FRAMES;
+    fap_performance_close(&s.out);
+    assert_int_equal(fap_coefficients_encode(&s.out, s.take, &s.cfg, NULL), FAP_E_ARG);
+    s.cfg.neutral_last = 30; /* before the first */
+    assert_int_equal(fap_coefficients_encode(&s.out, s.take, &s.cfg, NULL), FAP_E_ARG);
+    s.cfg.neutral_last = -1;
     s.cfg.neutral_frame = FRAMES;
     assert_int_equal(fap_coefficients_encode(&s.out, s.take, &s.cfg, NULL), FAP_E_ARG);
     end(&s);

@@ -336,6 +336,8 @@ void face_place_markers(performance *p)
 
 void face_close(performance *p)
 {
+    if (!p->take)
+        return;
     const fap_allocator *a = &p->take->alloc;
 
     fap_mem_free(a, p->face.mask);
