@@ -47,6 +47,7 @@ static const char help[] =
     "      --smooth M        auto, none, a cut-off frequency in Hz, or zhu (the mean of three frames)\n"
     "      --fill M          none, spline (gaps to 0.2 s), take (longer ones by the other markers), all\n"
     "      --start T --end T the part of the take to encode, in seconds\n"
+    "      --visemes, --expressions   find FAP 1 and FAP 2 as well: names for what the face does\n"
     "      --plot OUT.png|svg  the FAPs as curves, gaps and fills marked; where the markers are on the face\n"
     "      --batch FOLDER -o OUT   every take in FOLDER and below; goes on where it was stopped; "
     "docs/batch.md\n"
@@ -129,6 +130,8 @@ enum {
     OPT_PLOT,
     OPT_BATCH,
     OPT_TO,
+    OPT_VISEMES,
+    OPT_EXPRESSIONS,
     OPT_SPEECH,
     OPT_PHONEMES,
     OPT_TIER,
@@ -178,6 +181,8 @@ static const struct option long_options[] = {
     { "jobs", required_argument, NULL, 'j' },
     { "to", required_argument, NULL, OPT_TO },
     { "plot", required_argument, NULL, OPT_PLOT },
+    { "visemes", no_argument, NULL, OPT_VISEMES },
+    { "expressions", no_argument, NULL, OPT_EXPRESSIONS },
     { "speech", required_argument, NULL, OPT_SPEECH },
     { "phonemes", required_argument, NULL, OPT_PHONEMES },
     { "tier", required_argument, NULL, OPT_TIER },
@@ -374,6 +379,8 @@ static int parse_option(options *opt, int c, const char *arg)
     case 'j': return whole_number(opt, "jobs", arg, 1, 256, &opt->jobs);
     case OPT_TO: return parse_to(opt, arg);
     case OPT_PLOT: return parse_plot(opt, arg);
+    case OPT_VISEMES: opt->visemes = 1; return 1;
+    case OPT_EXPRESSIONS: opt->expressions = 1; return 1;
     case OPT_SPEECH: opt->speech.sound = arg; return 1;
     case OPT_PHONEMES: opt->speech.phonemes = arg; return 1;
     case OPT_TIER: opt->speech.tier = arg; return 1;
@@ -478,7 +485,9 @@ static int check_speech(options *opt)
 {
     speech_options *s = &opt->speech;
 
-    if (opt->command != COMMAND_ENCODE || opt->input)
+    if (opt->visemes || opt->expressions)
+        tool_error("--visemes and --expressions are found in captures; speech has its visemes already");
+    else if (opt->command != COMMAND_ENCODE || opt->input)
         tool_error(
             "speech is no take: --speech SOUND --phonemes FILE, or --text WORDS, and nothing else to read");
     else if (!s->phonemes == !s->text)

@@ -31,8 +31,9 @@ typedef struct options {
     const char *rate_option; /* which of --quant, --bitrate and --max-error was there; NULL: none */
     const char *bank_path;   /* the face that errors are measured on; NULL: find one; "builtin" */
     const char *fit_path, *learn_path;
-    gpio_spec trigger;     /* the line whose edge is waited for; no chip: none */
-    const char *plot_path; /* NULL: no plot */
+    gpio_spec trigger;        /* the line whose edge is waited for; no chip: none */
+    const char *plot_path;    /* NULL: no plot */
+    int visemes, expressions; /* FAP 1, FAP 2 are to be found */
     speech_options speech;
     const char *batch_path; /* the folder whose takes are encoded; NULL: one take */
     int jobs;               /* takes at a time; 0: as many as there are processors */

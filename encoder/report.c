@@ -9,6 +9,7 @@
 #include "encoder/report_capture.h"
 #include "encoder/report_coefficients.h"
 #include "encoder/report_inspect.h"
+#include "encoder/report_named.h"
 #include "encoder/report_written.h"
 #include "encoder/speech/report_speech.h"
 
@@ -52,6 +53,8 @@ static void report_success(const options *opt, const run_report *rep)
         (opt->json ? report_coefficients_json : report_coefficients_say)(opt, rep);
     else
         report_transcoded(opt, rep);
+    if (!opt->json)
+        report_named_say(opt, rep);
     report_written_say(opt, &rep->written);
 }
 

@@ -9,6 +9,7 @@
 #include "encoder/report_capture.h"
 #include "encoder/report_cleaning.h"
 #include "encoder/report_line.h"
+#include "encoder/report_named.h"
 #include "encoder/report_written.h"
 
 static const char *const fapu_names[5] = { "IRISD", "ES", "ENS", "MNS", "MW" };
@@ -120,13 +121,19 @@ static void say_missing(const fap_capture_report *r, int first)
     tool_note("  not sent: %s: %s", l.text, reason);
 }
 
+/* --visemes, --expressions: no marker measures them, yet they are sent. */
+static int is_named(const run_report *rep, int fap)
+{
+    return rep->named && fap <= 2 && rep->named[0].state[fap] == FAP_CODED;
+}
+
 static void say_faps(const run_report *rep, const fap_capture_report *r)
 {
     for (int fap = 1; fap <= FAP_COUNT; fap++)
         if (r->fap[fap].coded)
             say_fap(rep, fap, &r->fap[fap]);
     for (int fap = 1; fap <= FAP_COUNT; fap++)
-        if (r->fap[fap].reason)
+        if (r->fap[fap].reason && !is_named(rep, fap))
             say_missing(r, fap);
 }
 
@@ -272,12 +279,12 @@ static void json_faps(json *j, const run_report *rep, const fap_capture_report *
     json_close(j, ']');
     json_open(j, "unseen", '[');
     for (int fap = 1; fap <= FAP_COUNT; fap++)
-        if (!r->fap[fap].coded)
+        if (!r->fap[fap].coded && !is_named(rep, fap))
             json_integer(j, NULL, fap);
     json_close(j, ']');
     json_open(j, "not_sent", '[');
     for (int fap = 1; fap <= FAP_COUNT; fap++) {
-        if (!r->fap[fap].reason)
+        if (!r->fap[fap].reason || is_named(rep, fap))
             continue;
         json_open(j, NULL, '{');
         json_integer(j, "fap", fap);
@@ -307,6 +314,7 @@ void report_capture_json(const options *opt, const run_report *rep)
     json_string(&j, "output", opt->output);
     json_integer(&j, "frames", r->frames);
     json_number(&j, "rate_hz", r->rate_hz);
+    report_named_json(&j, opt, rep);
     report_written_json(&j, opt, &rep->written);
     json_markers(&j, rep, r);
     report_cleaning_json(&j, rep, r);

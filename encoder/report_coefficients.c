@@ -8,6 +8,7 @@
 #include "common/json.h"
 #include "common/tool.h"
 #include "encoder/report_coefficients.h"
+#include "encoder/report_named.h"
 #include "encoder/report_written.h"
 
 /* --- in words --- */
@@ -199,6 +200,7 @@ void report_coefficients_json(const options *opt, const run_report *rep)
     json_string(&j, "output", opt->output);
     json_integer(&j, "frames", r->frames);
     json_number(&j, "rate_hz", r->rate_hz);
+    report_named_json(&j, opt, rep);
     report_written_json(&j, opt, &rep->written);
     json_channels(&j, r);
     json_cleaning(&j, r);

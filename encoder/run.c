@@ -147,14 +147,41 @@ static fap_err inspect(const options *opt, run_report *rep, const uint8_t *data,
 
 /* --- captures --- */
 
+/* --visemes, --expressions: in a copy, as the capture's own frames are read only. */
+static fap_err name_frames(const options *opt, run_report *rep, frame_source *src, double rate_hz)
+{
+    fap_naming_config cfg;
+
+    if (!opt->visemes && !opt->expressions)
+        return FAP_OK;
+    fap_naming_config_init(&cfg);
+    cfg.visemes = opt->visemes;
+    cfg.expressions = opt->expressions;
+    cfg.rate_hz = rate_hz;
+    rep->named = calloc(src->count + 1, sizeof *rep->named);
+    if (!rep->named)
+        return FAP_E_NOMEM;
+    memcpy(rep->named, src->frames, src->count * sizeof *rep->named);
+    src->frames = rep->named;
+    return fap_name_frames(rep->named, src->count, &cfg, &rep->naming);
+}
+
+/* What captures of both kinds become. */
+static fap_err write_frames(const options *opt, run_report *rep, const fap_frame *frames, size_t count,
+                            double rate_hz)
+{
+    fap_ascii_header header = { .version = "2.1", .rate_hz = rate_hz, .present = 1 };
+    frame_source src = { .frames = frames, .count = count };
+
+    sequence_name(opt->input, header.name, sizeof header.name);
+    const fap_err err = name_frames(opt, rep, &src, rate_hz);
+    return err == FAP_OK ? write_output(opt, rep, &header, &src) : fail(rep, err, opt->input, NULL);
+}
+
 static fap_err write_capture(const options *opt, run_report *rep)
 {
     const fap_capture_report *r = fap_capture_report_get(rep->capture);
-    fap_ascii_header header = { .version = "2.1", .rate_hz = r->rate_hz, .present = 1 };
-    const frame_source src = { .frames = fap_capture_frames(rep->capture), .count = (size_t)r->frames };
-
-    sequence_name(opt->input, header.name, sizeof header.name);
-    return write_output(opt, rep, &header, &src);
+    return write_frames(opt, rep, fap_capture_frames(rep->capture), r->frames, r->rate_hz);
 }
 
 /* What an encoding is given besides the take. */
@@ -222,12 +249,7 @@ static fap_err encode(const options *opt, run_report *rep)
 static fap_err write_performance(const options *opt, run_report *rep)
 {
     const fap_coefficients_report *r = fap_performance_report(rep->performance);
-    fap_ascii_header header = { .version = "2.1", .rate_hz = r->rate_hz, .present = 1 };
-    const frame_source src = { .frames = fap_performance_frames(rep->performance),
-                               .count = (size_t)r->frames };
-
-    sequence_name(opt->input, header.name, sizeof header.name);
-    return write_output(opt, rep, &header, &src);
+    return write_frames(opt, rep, fap_performance_frames(rep->performance), r->frames, r->rate_hz);
 }
 
 static fap_err encode_coefficients(const options *opt, run_report *rep)
@@ -345,6 +367,7 @@ fap_err run(const options *opt, run_report *rep)
 
 void run_close(run_report *rep)
 {
+    free(rep->named);
     spoken_close(&rep->spoken);
     fap_take_close(&rep->take);
     fap_capture_close(&rep->capture);

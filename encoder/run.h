@@ -5,6 +5,7 @@
 
 #include <fap/studio/capture.h>
 #include <fap/studio/coefficients.h>
+#include <fap/studio/naming.h>
 
 #include "common/streams.h"
 #include "encoder/inspection.h"
@@ -21,7 +22,9 @@ typedef struct run_report {
     fap_capture *capture;
     fap_coefficients *coefficients; /* as read, where it has no points */
     fap_performance *performance;
-    spoken spoken; /* its speech is NULL where nothing is said */
+    spoken spoken;    /* its speech is NULL where nothing is said */
+    fap_frame *named; /* a capture's frames with FAP 1 and FAP 2; NULL: not asked for */
+    fap_naming_report naming;
     stream_summary stream;
     inspection *inspection; /* of an .fba that was inspected */
     stream_options reading;

@@ -37,7 +37,7 @@ const char *reason_for(const performance *p, int fap)
     const fap_info *info = fap_info_get(fap);
 
     if (fap <= 2)
-        return "visemes and expressions are not what markers measure";
+        return "visemes and expressions are names for what the others do; --visemes and --expressions find them";
     if (info->motion != FAP_MOTION_CURL && info->group == 7)
         return p->has_body ? "the head is never seen" : "no three markers keep their distances";
     if (info->point < 0)

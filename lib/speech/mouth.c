@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "gen/dominance.h"
 #include "speech/phonemes.h"
+#include "speech/two_visemes.h"
 
 enum { VISEMES = FAP_VISEME_COUNT + 1 };
 
@@ -258,43 +259,14 @@ static void whole_mouth(const fap_mouth *m, double t, double all[VISEMES])
     }
 }
 
-/* The strongest three, strongest first. */
-static void rank(const double all[VISEMES], int best[3])
-{
-    best[0] = best[1] = best[2] = -1;
-    for (int v = 0; v < VISEMES; v++) {
-        int at = 3;
-        while (at > 0 && (best[at - 1] < 0 || all[v] > all[best[at - 1]]))
-            at--;
-        for (int i = 2; i > at; i--)
-            best[i] = best[i - 1];
-        if (at < 3)
-            best[at] = v;
-    }
-}
-
-/* 1 where there is no third; 0 where the third is as strong: one takes the other's place there, and the mouth must not jump. */
-static double lead(double strength, double third)
-{
-    return strength > 0 ? 1 - pow(third / strength, 4) : 0;
-}
-
 /* Two visemes of all that pull. */
 static void show_visemes(const fap_mouth *m, double t, fap_frame *frame)
 {
     double all[VISEMES];
-    int best[3];
 
     whole_mouth(m, t, all);
-    rank(all, best);
-    const double third = all[best[2]];
-    const double first = all[best[0]] * lead(all[best[0]], third),
-                 second = all[best[1]] * lead(all[best[1]], third);
-    const int blend = first + second > 0 ? (int)lround(63 * first / (first + second)) : 32;
     frame->state[1] = FAP_CODED;
-    frame->viseme = (fap_viseme){ .select1 = (uint8_t)best[0],
-                                  .select2 = (uint8_t)(blend < 63 ? best[1] : best[0]),
-                                  .blend = (uint8_t)blend };
+    two_visemes(all, &frame->viseme);
 }
 
 /* --- low-level FAPs --- */
