@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* fapbank makes, measures and shows databanks of faces. */
+#include <string.h>
+
 #include "common/tool.h"
+#include "databank/fit/fit.h"
 #include "databank/options.h"
 #include "databank/report.h"
 #include "databank/run.h"
@@ -11,6 +14,8 @@ int main(int argc, char **argv)
     report rep = { 0 };
 
     tool_name = "fapbank";
+    if (argc > 1 && !strcmp(argv[1], "fit"))
+        return fit_run(argc - 1, argv + 1);
     if (!options_parse(&opt, argc, argv))
         return opt.exit_status;
     const fap_err err = run(&opt, &rep);

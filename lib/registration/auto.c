@@ -43,6 +43,7 @@ typedef struct autofit {
     elastic_pull *pull; /* [vertices] */
     elastic_pin *pin;   /* [pins] */
     uint8_t *side;      /* [scan triangles] mask bits of the face laid over it */
+    double ease;        /* of a mesh with long edges, which bending is counted in */
     uint8_t *foreign;   /* [scan triangles] 1: nearest to something that is no skin */
 } autofit;
 
@@ -233,7 +234,7 @@ static void run_round(autofit *f, const struct stage *s)
                                 .pin = f->pin,
                                 .pin_count = l->pin_count,
                                 .slide = slide,
-                                .stiffness = s->stiffness,
+                                .stiffness = s->stiffness * f->ease,
                                 .stretch = s->stretch,
                                 .rounds = CG_ROUNDS,
                                 .enough = 1e-3 };
@@ -259,12 +260,33 @@ static fap_err run_stages(autofit *f)
     return err;
 }
 
+/* The stages are for faces of ten thousand vertices. */
+static const double usual_edge_mm = 2;
+
+static double mean_edge(const laying *l)
+{
+    const float(*p)[3] = l->generic->position;
+    double sum = 0;
+    uint32_t count = 0;
+
+    for (uint32_t i = 0; i < l->edges.count; i++) {
+        const float *a = p[l->edges.edge[i].low], *b = p[l->edges.edge[i].high];
+        if (!laying_is_skin(l, l->edges.edge[i].low))
+            continue;
+        sum += sqrt(pow((double)a[0] - (double)b[0], 2) + pow((double)a[1] - (double)b[1], 2) +
+                    pow((double)a[2] - (double)b[2], 4));
+        count++;
+    }
+    return count ? sum / count : usual_edge_mm;
+}
+
 static fap_err open(autofit *f)
 {
     const laying *l = f->l;
     const fap_generic *g = l->generic;
     const fap_allocator *a = l->alloc;
 
+    f->ease = fmin(1, pow(usual_edge_mm / mean_edge(l), 2));
     f->use = fap_mem_calloc(a, g->vertex_count, 1);
     f->pull = fap_mem_calloc(a, g->vertex_count, sizeof *f->pull);
     f->pin = fap_mem_calloc(a, l->pin_count, sizeof *f->pin);

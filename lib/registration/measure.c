@@ -5,6 +5,9 @@
 #include "registration/measure.h"
 #include "surface/normals.h"
 
+/* Least cosine between two surfaces that are taken for one. */
+static const double alike = 0.5;
+
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -18,18 +21,32 @@ static int is_border(const laying *l, const surface_hit *h)
     return 1;
 }
 
+/* The inside of a mouth or a nostril lies near the scan, but not on it. */
+static int faces_alike(const laying *l, uint32_t vertex, const surface_hit *h)
+{
+    double sum = 0;
+
+    for (int c = 0; c < 3; c++)
+        for (int a = 0; a < 3; a++)
+            sum += (double)(h->share[c] * l->scan_normal[l->scan_triangle[h->triangle][c]][a] *
+                            l->normal[vertex][a]);
+    return sum > alike;
+}
+
 static void measure_surface(laying *l)
 {
     fap_registration_report *r = l->report;
+    const fap_generic *g = l->generic;
     double sum = 0;
 
-    for (uint32_t i = 0; i < l->generic->vertex_count; i++) {
+    surface_normals((const float(*)[3])l->at, g->vertex_count, g->triangle, g->triangle_count, l->normal);
+    for (uint32_t i = 0; i < g->vertex_count; i++) {
         surface_hit h;
         if (!laying_is_skin(l, i))
             continue;
         r->skin++;
         if (!surface_index_nearest(l->index, l->at[i], (float)l->cfg->reach_mm, NULL, NULL, &h) ||
-            is_border(l, &h))
+            is_border(l, &h) || !faces_alike(l, i, &h))
             continue;
         r->seen++;
         sum += (double)h.distance * (double)h.distance;

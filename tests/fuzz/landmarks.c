@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/* Any bytes as a JSON file of landmarks; a blank in front keeps other formats from claiming it. */
-#include <stdlib.h>
-#include <string.h>
+/* Landmarks: read, and named on the built-in face. */
+#include <stddef.h>
+#include <stdint.h>
 
-#include "tests/fuzz/take.h"
+#include <fap/studio/landmarks.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const char head[] = " [[[0,0,0]],";
-    const size_t head_size = size && data[0] == '[' ? sizeof head - 1 : 1;
-    char *text = malloc(head_size + size);
+    static fap_bank *bank; /* read only */
+    fap_pin pin[FAP_POINT_COUNT];
+    char where[FAP_ERROR_TEXT_SIZE];
+    uint32_t count;
+    fap_take *t;
 
-    if (!text)
+    if (!bank && fap_bank_builtin(&bank, NULL) != FAP_OK)
         return 0;
-    memcpy(text, head, head_size);
-    if (size)
-        memcpy(text + head_size, data, size);
-    fuzz_take(text, head_size + size);
-    free(text);
+    if (fap_landmarks_read(&t, data, size, NULL, NULL, where) != FAP_OK)
+        return 0;
+    (void)!fap_landmarks_pin(t, bank, pin, &count, where);
+    fap_take_close(&t);
     return 0;
 }
