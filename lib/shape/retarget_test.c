@@ -67,8 +67,9 @@ TEST(retarget, a_larger_head_makes_larger_motions)
             assert_float_equal(fap_bank_key_get(large, joy)->point_mm[p][a],
                                1.2F * fap_bank_key_get(m.bank, joy)->point_mm[p][a], 0.02);
     assert_float_equal(fap_bank_fapu(large)->es_mm, 1.2F * fap_bank_fapu(m.bank)->es_mm, 0.01);
-    float centre[3], radius, from[3], from_radius;
-    assert_true(fap_bank_eye(large, 0, centre, &radius) && fap_bank_eye(m.bank, 0, from, &from_radius));
+    float centre[3], radius = 0, from[3], from_radius = 0;
+    assert_true(fap_bank_eye(large, 0, centre, &radius));
+    assert_true(fap_bank_eye(m.bank, 0, from, &from_radius));
     assert_float_equal(radius, 1.2F * from_radius, 1e-3);
     assert_float_equal(centre[0], 1.2F * from[0], 1e-2);
     fap_bank_close(&large);
