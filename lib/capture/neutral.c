@@ -14,6 +14,7 @@
 /* What the choice is made from, a number a frame; NAN where the head is not seen. */
 typedef struct moments {
     double *speed, *mouth, *lids, *distance, *scratch;
+    double pressed_mm;
     uint32_t frames;
 } moments;
 
@@ -83,12 +84,13 @@ static double speed_at(const performance *p, uint32_t frame)
 /* Two feature points whose distance says something. */
 typedef struct point_pair {
     const char *upper, *lower;
+    double pressed_mm; /* how much nearer than at rest they can come */
 } point_pair;
 
 /* Distances that grow when the mouth opens, and when the eyes do; the first that the take has is used. */
-static const point_pair mouth_pairs[] = { { "2.2", "2.3" }, { "8.1", "8.2" },  { "9.3", "2.10" },
-                                          { "9.3", "2.1" }, { "8.1", "2.10" }, { "8.1", "2.1" } };
-static const point_pair lid_pairs[] = { { "3.1", "3.3" }, { "3.2", "3.4" } };
+static const point_pair mouth_pairs[] = { { "2.2", "2.3", 0 }, { "8.1", "8.2", 3 },  { "9.3", "2.10", 3 },
+                                          { "9.3", "2.1", 3 }, { "8.1", "2.10", 3 }, { "8.1", "2.1", 3 } };
+static const point_pair lid_pairs[] = { { "3.1", "3.3", 0 }, { "3.2", "3.4", 0 } };
 
 static int still_point(const performance *p, uint32_t frame, int feature_point, double out[3])
 {
@@ -105,19 +107,27 @@ static int still_point(const performance *p, uint32_t frame, int feature_point, 
     return s->count > 0;
 }
 
-/* 0 when the take has none of the pairs; NAN when the one it has is hidden. */
-static double distance_at(const performance *p, uint32_t frame, const point_pair *pair, size_t count)
+/* The first pair that the take has; NULL: none. */
+static const point_pair *pair_of(const performance *p, const point_pair *pair, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const int upper = fap_point_by_name(pair[i].upper), lower = fap_point_by_name(pair[i].lower);
-        double a[3], b[3];
-        if (!p->report->markers.point[upper].count || !p->report->markers.point[lower].count)
-            continue;
-        if (!still_point(p, frame, upper, a) || !still_point(p, frame, lower, b))
-            return NAN;
-        return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
-    }
-    return 0;
+    for (size_t i = 0; i < count; i++)
+        if (p->report->markers.point[fap_point_by_name(pair[i].upper)].count &&
+            p->report->markers.point[fap_point_by_name(pair[i].lower)].count)
+            return &pair[i];
+    return NULL;
+}
+
+/* 0 when there is no pair; NAN when it is hidden. */
+static double distance_at(const performance *p, uint32_t frame, const point_pair *pair)
+{
+    double a[3], b[3];
+
+    if (!pair)
+        return 0;
+    if (!still_point(p, frame, fap_point_by_name(pair->upper), a) ||
+        !still_point(p, frame, fap_point_by_name(pair->lower), b))
+        return NAN;
+    return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
 /* The posture that is nearest to all others, among a sample of frames. */
@@ -146,11 +156,14 @@ static uint32_t usual_frame(const performance *p)
 static void measure(const performance *p, moments *m)
 {
     const uint32_t usual = usual_frame(p);
+    const point_pair *mouth = pair_of(p, mouth_pairs, sizeof mouth_pairs / sizeof *mouth_pairs);
+    const point_pair *lids = pair_of(p, lid_pairs, sizeof lid_pairs / sizeof *lid_pairs);
 
+    m->pressed_mm = mouth ? mouth->pressed_mm : 0;
     for (uint32_t f = 0; f < m->frames; f++) {
         m->speed[f] = speed_at(p, f);
-        m->mouth[f] = distance_at(p, f, mouth_pairs, sizeof mouth_pairs / sizeof *mouth_pairs);
-        m->lids[f] = distance_at(p, f, lid_pairs, sizeof lid_pairs / sizeof *lid_pairs);
+        m->mouth[f] = distance_at(p, f, mouth);
+        m->lids[f] = distance_at(p, f, lids);
         m->distance[f] = change(p, f, usual);
     }
 }
@@ -158,7 +171,8 @@ static void measure(const performance *p, moments *m)
 /* --- the choice --- */
 
 /*
- * Each part is 1 at what is usual in this take; a mouth open by 2 mm more than its closed state counts like that. What is
+ * Each part is 1 at what is usual in this take; a mouth open by 2 mm more than its closed state counts like that, markers on the
+ * outer lips come nearer than at rest when lips are pressed for a p. What is
  * usual counts up to a limit: most of a short take may be one long smile, and the closed mouth before it is still at rest.
  */
 static uint32_t best_frame(const moments *m)
@@ -172,7 +186,8 @@ static uint32_t best_frame(const moments *m)
     uint32_t best = 0;
 
     for (uint32_t f = 0; f < m->frames; f++) {
-        const double open = fabs(m->mouth[f] - closed) / 2, asleep = fabs(m->lids[f] - awake) / 2;
+        const double open = fmax(0, fabs(m->mouth[f] - closed) - m->pressed_mm) / 2,
+                     asleep = fabs(m->lids[f] - awake) / 2;
         const double unusual = fmin(m->distance[f] / distance, most_unusual);
         const double score = m->speed[f] / speed + unusual + open + asleep;
         if (score < least) {
@@ -191,7 +206,7 @@ static fap_err choose(performance *p, uint32_t *frame)
     if (!v)
         return FAP_E_NOMEM;
     const size_t n = p->frames;
-    moments m = { v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, p->frames };
+    moments m = { v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, 0, p->frames };
     measure(p, &m);
     *frame = best_frame(&m);
     fap_mem_free(a, v);
