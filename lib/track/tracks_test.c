@@ -16,7 +16,7 @@ static const double ruler_mm = 80;
 
 /* What a perfect tracker would tell of a face between two mirrors. */
 typedef struct scene {
-    char text[LABELS][8];
+    char text[LABELS][16];
     const char *name[LABELS];
     uint8_t has[LABELS * FAP_TRACKS_VIEWS];
     fap_track_point point[FRAMES][LABELS * FAP_TRACKS_VIEWS];
