@@ -6,6 +6,7 @@
 #include "databank/fit/fit.h"
 #include "databank/options.h"
 #include "databank/report.h"
+#include "databank/retarget/retarget.h"
 #include "databank/run.h"
 
 int main(int argc, char **argv)
@@ -16,6 +17,8 @@ int main(int argc, char **argv)
     tool_name = "fapbank";
     if (argc > 1 && !strcmp(argv[1], "fit"))
         return fit_run(argc - 1, argv + 1);
+    if (argc > 1 && !strcmp(argv[1], "retarget"))
+        return retarget_run(argc - 1, argv + 1);
     if (!options_parse(&opt, argc, argv))
         return opt.exit_status;
     const fap_err err = run(&opt, &rep);

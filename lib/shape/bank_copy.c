@@ -14,6 +14,7 @@ typedef struct other_face {
     const float (*position)[3];
     const char *name;
     fap_retarget_scale scale;
+    int still; /* 1: its keys are left out */
 } other_face;
 
 /* A place that no vertex has is scaled about the middle of the eyes' axes, the origin. */
@@ -142,7 +143,7 @@ static fap_err copy(fap_bank_builder **out, const fap_bank *bank, const other_fa
     fap_err err = copy_mesh(out, bank, other);
     if (!err)
         err = copy_points(*out, bank, other);
-    if (!err)
+    if (!err && !other->still)
         err = copy_keys(*out, bank, other);
     if (!err)
         err = copy_maps(*out, bank, other);
@@ -156,6 +157,11 @@ static fap_err copy(fap_bank_builder **out, const fap_bank *bank, const other_fa
 fap_err fap_bank_builder_copy(fap_bank_builder **out, const fap_bank *bank)
 {
     return copy(out, bank, &(other_face){ .scale.scale = 1 });
+}
+
+fap_err fap_bank_builder_still(fap_bank_builder **out, const fap_bank *bank)
+{
+    return copy(out, bank, &(other_face){ .scale.scale = 1, .still = 1 });
 }
 
 /* --- another face --- */

@@ -122,6 +122,8 @@ double bench_fitness_zhu4(void);
 double bench_fitness_ga(void);
 double bench_temporal_jitter_mm(void);
 double bench_temporal_jitter_held_mm(void);
+double bench_pca_ccr_1(void);
+double bench_pca_ccr_2(void);
 double bench_pca_ccr_3(void);
 
 /* FAPs to ARKit's coefficients and back: what is lost, at the feature points and on the face; and how long it takes. */
@@ -140,6 +142,11 @@ double bench_glb_worst_mm(void);
 
 /* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */
 void bench_wave(fap_frame *frame, int t, int step);
+
+/* Motions on another face and back: of one structure, and through another. */
+double bench_retarget_us(void);
+double bench_retarget_error_mm(void);
+double bench_retarget_other_error_mm(void);
 
 /* A face laid onto scans whose truth is known; X(name, method). */
 #define BENCH_REGISTRATION(X) X(auto, FAP_REGISTER_AUTO)

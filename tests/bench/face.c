@@ -260,8 +260,9 @@ double bench_temporal_jitter_held_mm(void)
 
 /* --- principal components --- */
 
-double bench_pca_ccr_3(void)
+static double contribution(int components)
 {
+    static const int visemes[] = { 1, 2, 10, 11, 13, 14 };
     const fap_allocator alloc = fap_mem_allocator(NULL);
     fap_bank *bank = bench_bank();
     int key[6], count = 0;
@@ -269,13 +270,29 @@ double bench_pca_ccr_3(void)
 
     if (!bank)
         return -1;
-    for (int number = 1; number <= 6; number++)
-        if (fap_bank_key_number(bank, FAP_KEY_EXPRESSION, number) >= 0)
-            key[count++] = fap_bank_key_number(bank, FAP_KEY_EXPRESSION, number);
-    const double ccr = fap_pca_open(&pca, bank, key, count, 0, &alloc) ? -1 : fap_pca_contribution(&pca, 3);
+    for (int i = 0; i < 6; i++)
+        if (fap_bank_key_number(bank, FAP_KEY_VISEME, visemes[i]) >= 0)
+            key[count++] = fap_bank_key_number(bank, FAP_KEY_VISEME, visemes[i]);
+    const double ccr =
+        fap_pca_open(&pca, bank, key, count, 0, &alloc) ? -1 : fap_pca_contribution(&pca, components);
     fap_pca_close(&pca, &alloc);
     fap_bank_close(&bank);
     return ccr;
+}
+
+double bench_pca_ccr_1(void)
+{
+    return contribution(1);
+}
+
+double bench_pca_ccr_2(void)
+{
+    return contribution(2);
+}
+
+double bench_pca_ccr_3(void)
+{
+    return contribution(3);
 }
 
 /* --- the exact solver by itself --- */

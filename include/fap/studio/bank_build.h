@@ -35,6 +35,8 @@ FAP_API FAP_NODISCARD fap_err fap_bank_builder_open(fap_bank_builder **out, cons
 /** Start from a bank that is there: its mesh, points, eyes, keys, masks and region map (not
  * its principal components, which other keys would make wrong), to be changed or written. @return as above */
 FAP_API FAP_NODISCARD fap_err fap_bank_builder_copy(fap_bank_builder **out, const fap_bank *bank);
+/** The same without the keys. */
+FAP_API FAP_NODISCARD fap_err fap_bank_builder_still(fap_bank_builder **out, const fap_bank *bank);
 /** Sets @p *b to NULL; accepts NULL. */
 FAP_API void fap_bank_builder_close(fap_bank_builder **b);
 

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* See retarget.h. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <fap/arkit.h>
+#include <fap/studio/landmarks.h>
+#include <fap/studio/retarget.h>
+#include <fap/tables.h>
+
+#include "common/bank_file.h"
+#include "common/file.h"
+#include "common/json.h"
+#include "common/tool.h"
+#include "databank/retarget/retarget.h"
+#include "databank/retarget/retarget_options.h"
+#include "databank/retarget/shapes.h"
+
+static const size_t most = (size_t)1 << 30, most_landmarks = (size_t)1 << 22;
+
+typedef struct work {
+    const retarget_options *opt;
+    fap_bank *bank;
+    fap_generic generic;
+    fap_surface *face; /* of --to */
+    shapes shapes;     /* of --from */
+    fap_registration *laid;
+    fap_bank_builder *out;
+    fap_retarget_scale scale;
+    int keys;
+} work;
+
+static int blame(fault *f, const char *path, fap_err err, const char *where)
+{
+    return fault_set(f, err == FAP_E_UNSUPPORTED ? EXIT_MISSING : tool_exit_code(err), "%s: %s", path,
+                     *where                     ? where
+                     : err == FAP_E_IO && errno ? strerror(errno)
+                                                : fap_strerror(err));
+}
+
+static int read_bank(work *w, fault *f)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+    const fap_err err = strcmp(w->opt->bank, "builtin") ? bank_file_read(&w->bank, w->opt->bank, where)
+                                                        : fap_bank_builtin(&w->bank, NULL);
+
+    return err == FAP_OK ? fap_generic_of_bank(&w->generic, w->bank, NULL) == FAP_OK
+                         : blame(f, w->opt->bank, err, where);
+}
+
+static int read_file(const char *path, size_t limit, uint8_t **data, size_t *size, fault *f)
+{
+    errno = 0;
+    const fap_err err = file_read(path, limit, data, size);
+    return err == FAP_OK || blame(f, path, err, "");
+}
+
+/* --- the same structure --- */
+
+static int retarget_to(work *w, fault *f)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+    const uint32_t n = fap_bank_mesh(w->bank)->vertex_count;
+    uint8_t *data;
+    size_t size;
+
+    if (!read_file(w->opt->to, most, &data, &size, f))
+        return 0;
+    fap_err err = fap_surface_read(&w->face, data, size, NULL, where);
+    free(data);
+    if (err != FAP_OK)
+        return blame(f, w->opt->to, err, where);
+    if (w->face->vertex_count != n)
+        return fault_set(
+            f, EXIT_DATA,
+            "%s: %u vertices, the bank's face has %u: not of one structure; fapbank fit gives it that",
+            w->opt->to, (unsigned)w->face->vertex_count, (unsigned)n);
+    const char *slash = strrchr(w->opt->to, '/');
+    err = fap_bank_retarget(&w->out, w->bank, (const float(*)[3])w->face->position,
+                            slash ? slash + 1 : w->opt->to, &w->scale);
+    w->keys = fap_bank_key_count(w->bank);
+    return err == FAP_OK || blame(f, w->opt->to, err, "");
+}
+
+/* --- another structure --- */
+
+static int lay_face(work *w, fault *f)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "";
+    fap_registration_config cfg;
+    fap_pin pin[FAP_POINT_COUNT];
+    fap_take *landmarks = NULL;
+    uint32_t pins;
+    uint8_t *data;
+    size_t size;
+
+    if (!read_file(w->opt->landmarks, most_landmarks, &data, &size, f))
+        return 0;
+    fap_err err = fap_landmarks_read(&landmarks, data, size, w->shapes.neutral, NULL, where);
+    free(data);
+    if (err == FAP_OK)
+        err = fap_landmarks_pin(landmarks, w->bank, pin, &pins, where);
+    fap_take_close(&landmarks);
+    if (err != FAP_OK)
+        return blame(f, w->opt->landmarks, err, where);
+    fap_registration_config_init(&cfg);
+    cfg.mm_per_unit = w->opt->mm_per_unit;
+    err = fap_register(&w->laid, &w->generic, w->shapes.neutral, pin, pins, &cfg, where);
+    return err == FAP_OK || blame(f, w->opt->from, err, where);
+}
+
+/* The source in the head's axes and millimetres, its motions too. */
+static void turn_source(work *w)
+{
+    fap_surface *n = w->shapes.neutral;
+
+    for (uint32_t i = 0; i < n->vertex_count; i++) {
+        float rest[3];
+        fap_registration_to_head(w->laid, n->position[i], rest);
+        for (int s = 0; s < w->shapes.count; s++) {
+            float *d = w->shapes.delta[s][i], moved[3];
+            for (int a = 0; a < 3; a++)
+                moved[a] = n->position[i][a] + d[a];
+            fap_registration_to_head(w->laid, moved, moved);
+            for (int a = 0; a < 3; a++)
+                d[a] = moved[a] - rest[a];
+        }
+        memcpy(n->position[i], rest, sizeof rest);
+    }
+}
+
+static int number_of(const char *name, int count, const char *(*name_of)(int))
+{
+    for (int i = 1; i <= count; i++)
+        if (!strcmp(name, name_of(i)))
+            return i;
+    return 0;
+}
+
+static fap_err add_key(work *w, const char *name, const float (*delta)[3])
+{
+    const int expression = number_of(name, FAP_EXPRESSION_COUNT, fap_expression_name);
+    const int viseme = number_of(name, FAP_VISEME_COUNT, fap_viseme_name), shape = fap_arkit_by_name(name);
+
+    if (expression)
+        return fap_bank_builder_key(w->out, FAP_KEY_EXPRESSION, expression, name, delta);
+    if (viseme)
+        return fap_bank_builder_key(w->out, FAP_KEY_VISEME, viseme, name, delta);
+    return fap_bank_builder_key(w->out, FAP_KEY_UNIT, 0, shape >= 0 ? fap_arkit_name(shape) : name, delta);
+}
+
+static int add_motions(work *w, fault *f)
+{
+    const uint32_t n = w->generic.vertex_count;
+    const float factor = (float)(1 / w->scale.scale); /* from the source's size to the bank's face */
+    uint8_t *use = malloc(n);
+    float(*delta)[3] = malloc(n * sizeof *delta);
+    fap_err err = use && delta ? FAP_OK : FAP_E_NOMEM;
+
+    for (uint32_t i = 0; use && i < n; i++)
+        use[i] = w->generic.part[i] == FAP_PART_SKIN;
+    for (int s = 0; err == FAP_OK && s < w->shapes.count; s++) {
+        err = fap_motion_resample(fap_registration_positions(w->laid), n, w->generic.triangle,
+                                  w->generic.triangle_count, use, 8, w->shapes.neutral,
+                                  (const float(*)[3])w->shapes.delta[s], delta);
+        for (uint32_t i = 0; err == FAP_OK && i < n; i++)
+            for (int a = 0; a < 3; a++)
+                delta[i][a] *= factor;
+        if (err == FAP_OK)
+            err = add_key(w, w->shapes.name[s], (const float(*)[3])delta);
+        w->keys++;
+    }
+    free(use);
+    free(delta);
+    return err == FAP_OK || blame(f, w->opt->from, err, "");
+}
+
+/* The bank's face without its motions: those come from the other one. */
+static int retarget_from(work *w, fault *f)
+{
+    if (!shapes_read(&w->shapes, w->opt->from, f) || !lay_face(w, f))
+        return 0;
+    turn_source(w);
+    /* How much larger the source's person is than the bank's. */
+    fap_err err = fap_bank_retarget(&w->out, w->bank, fap_registration_positions(w->laid), "", &w->scale);
+    fap_bank_builder_close(&w->out);
+    if (err == FAP_OK)
+        err = fap_bank_builder_still(&w->out, w->bank);
+    if (err != FAP_OK)
+        return blame(f, w->opt->from, err, "");
+    return add_motions(w, f);
+}
+
+/* --- out --- */
+
+static int write_bank(const work *w, fault *f)
+{
+    out_file out;
+
+    errno = 0;
+    fap_err err = out_file_open(&out, w->opt->output);
+    if (err == FAP_OK) {
+        const fap_writer writer = file_writer(out.stream);
+        err = fap_bank_builder_write(w->out, &writer);
+        if (err == FAP_OK)
+            err = out_file_commit(&out);
+        else
+            out_file_abandon(&out);
+    }
+    return err == FAP_OK || blame(f, w->opt->output, err, "");
+}
+
+static void say(const work *w)
+{
+    const fap_retarget_scale *s = &w->scale;
+
+    tool_note("%s: %d motions of %s on %s", w->opt->output, w->keys, w->opt->to ? w->opt->bank : w->opt->from,
+              w->opt->to ? w->opt->to : w->opt->bank);
+    tool_note("  times %.3f: the one is %.3f of the other by the eyes, %.3f by the mouth, %.3f by the nose, "
+              "%.3f by the lips",
+              w->opt->to ? s->scale : 1 / s->scale, s->eyes, s->mouth, s->nose, s->lips);
+    if (w->laid)
+        tool_note("  the bank's face lies %.3f mm rms off the source's, %u of %u vertices on it",
+                  fap_registration_report_get(w->laid)->surface_rms_mm,
+                  (unsigned)fap_registration_report_get(w->laid)->seen,
+                  (unsigned)fap_registration_report_get(w->laid)->skin);
+}
+
+static void say_json(const work *w)
+{
+    json j = { .out = stdout };
+
+    json_open(&j, NULL, '{');
+    json_string(&j, "output", w->opt->output);
+    json_integer(&j, "motions", w->keys);
+    json_number(&j, "scale", w->opt->to ? w->scale.scale : 1 / w->scale.scale);
+    json_number(&j, "eyes", w->scale.eyes);
+    json_number(&j, "mouth", w->scale.mouth);
+    json_number(&j, "nose", w->scale.nose);
+    json_number(&j, "lips", w->scale.lips);
+    if (w->laid)
+        json_number(&j, "surface_rms_mm", fap_registration_report_get(w->laid)->surface_rms_mm);
+    json_close(&j, '}');
+    fputc('\n', stdout);
+}
+
+static void tidy(work *w)
+{
+    fap_bank_builder_close(&w->out);
+    fap_registration_close(&w->laid);
+    fap_surface_close(&w->face);
+    shapes_free(&w->shapes);
+    fap_generic_free(&w->generic, NULL);
+    fap_bank_close(&w->bank);
+}
+
+int retarget_run(int argc, char **argv)
+{
+    retarget_options opt;
+    fault f = { 0 };
+    work *w = calloc(1, sizeof *w);
+
+    if (!retarget_options_parse(&opt, argc, argv) || !w) {
+        free(w);
+        return opt.exit_status;
+    }
+    w->opt = &opt;
+    const int ok = read_bank(w, &f) && (opt.to ? retarget_to : retarget_from)(w, &f) && write_bank(w, &f);
+    if (ok)
+        (opt.json ? say_json : say)(w);
+    else
+        tool_error("%s", *f.text ? f.text : "out of memory");
+    tidy(w);
+    free(w);
+    return ok ? EXIT_OK : f.exit_status ? f.exit_status : EXIT_DATA;
+}
