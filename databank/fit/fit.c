@@ -123,37 +123,20 @@ static int ends_with(const char *path, const char *ending)
     return dot && !strcasecmp(dot, ending);
 }
 
-/* The face as a surface, the generic face's vertices in their order. */
-static fap_err make_surface(const fit_work *w, fap_surface **out)
+/* The face as a surface: the generic face's vertices in their order, with its texture coordinates where it is no finer. */
+static fap_err write_surface(const fit_work *w, const fap_writer *out)
 {
     const fap_mesh *mesh = fap_bank_mesh(w->bank);
-    const fap_err err = fap_surface_create(out, mesh->vertex_count, mesh->triangle_count, NULL);
+    fap_surface s = *fap_registration_surface(w->registration);
 
-    if (err != FAP_OK)
-        return err;
-    memcpy((*out)->position, fap_registration_positions(w->registration),
-           mesh->vertex_count * sizeof *(*out)->position);
-    memcpy((*out)->triangle, mesh->triangle, mesh->triangle_count * sizeof *(*out)->triangle);
-    if (mesh->uv)
-        (*out)->uv = malloc(mesh->vertex_count * sizeof *(*out)->uv);
-    if ((*out)->uv)
-        memcpy((*out)->uv, mesh->uv, mesh->vertex_count * sizeof *(*out)->uv);
-    return FAP_OK;
+    s.uv = mesh->uv && s.vertex_count == mesh->vertex_count ? (float(*)[2])(uintptr_t)mesh->uv : NULL;
+    return ends_with(w->opt->output, ".ply") ? fap_surface_write_ply(&s, out)
+                                             : fap_surface_write_obj(&s, out);
 }
 
 static fap_err write_face(const fit_work *w, const fap_writer *out)
 {
-    fap_surface *s;
-
-    if (ends_with(w->opt->output, ".fbank"))
-        return fap_bank_builder_write(w->face, out);
-    fap_err err = make_surface(w, &s);
-    if (err == FAP_OK) {
-        err =
-            ends_with(w->opt->output, ".ply") ? fap_surface_write_ply(s, out) : fap_surface_write_obj(s, out);
-        fap_surface_close(&s);
-    }
-    return err;
+    return ends_with(w->opt->output, ".fbank") ? fap_bank_builder_write(w->face, out) : write_surface(w, out);
 }
 
 static int write_output(const fit_work *w, fault *f)

@@ -29,6 +29,10 @@ static const char help[] =
     "                        scaled (Zhu's thesis, section 5.1)\n"
     "      --bank B.fbank    the generic face (the default face, else the built-in one; \"builtin\")\n"
     "      --method M        auto: landmarks, then the skin drawn to the scan from coarse to fine\n"
+    "                        zhu: landmarks met exactly, then rays to the scan, as the thesis has it\n"
+    "      --subdivide N     zhu: Loop's scheme, 0 to 3 times (0); for -o FACE.obj or .ply\n"
+    "      --project WAY     zhu: cylinder (away from the head's axis) or normal\n"
+    "      --limit MM        zhu: how far a ray may go (15)\n"
     "      --unit U          of the scan: mm, cm, m or millimetres in one unit (the one that makes it a "
     "head)\n"
     "      --pin-error MM    how far off a landmark may be (1)\n"
@@ -49,6 +53,9 @@ enum {
     OPT_LANDMARKS = 256,
     OPT_BANK,
     OPT_METHOD,
+    OPT_SUBDIVIDE,
+    OPT_PROJECT,
+    OPT_LIMIT,
     OPT_UNIT,
     OPT_PIN_ERROR,
     OPT_REACH,
@@ -64,6 +71,9 @@ static const struct option long_options[] = {
     { "output", required_argument, NULL, 'o' },
     { "bank", required_argument, NULL, OPT_BANK },
     { "method", required_argument, NULL, OPT_METHOD },
+    { "subdivide", required_argument, NULL, OPT_SUBDIVIDE },
+    { "project", required_argument, NULL, OPT_PROJECT },
+    { "limit", required_argument, NULL, OPT_LIMIT },
     { "unit", required_argument, NULL, OPT_UNIT },
     { "pin-error", required_argument, NULL, OPT_PIN_ERROR },
     { "reach", required_argument, NULL, OPT_REACH },
@@ -99,8 +109,27 @@ static int parse_method(fit_options *opt, const char *text)
             opt->fit.method = (fap_registration_method)m;
             return 1;
         }
-    tool_error("--method %s: expected auto, zhu, yano or lorenzo", text);
+    tool_error("--method %s: expected auto or zhu", text);
     return usage(opt);
+}
+
+static int parse_project(fit_options *opt, const char *text)
+{
+    opt->fit.along_normals = !strcmp(text, "normal");
+    if (opt->fit.along_normals || !strcmp(text, "cylinder"))
+        return 1;
+    tool_error("--project %s: expected cylinder or normal", text);
+    return usage(opt);
+}
+
+static int parse_subdivide(fit_options *opt, const char *text)
+{
+    double steps;
+
+    if (!number(opt, "subdivide", text, 0, 3, &steps))
+        return 0;
+    opt->fit.subdivisions = (int)steps;
+    return 1;
 }
 
 static int parse_unit(fit_options *opt, const char *text)
@@ -125,6 +154,9 @@ static int parse_option(fit_options *opt, int c, const char *arg)
     case OPT_LANDMARKS: opt->landmarks = arg; return 1;
     case OPT_BANK: opt->bank = arg; return 1;
     case OPT_METHOD: return parse_method(opt, arg);
+    case OPT_SUBDIVIDE: return parse_subdivide(opt, arg);
+    case OPT_PROJECT: return parse_project(opt, arg);
+    case OPT_LIMIT: return number(opt, "limit", arg, 0.1, 100, &opt->fit.limit_mm);
     case OPT_UNIT: return parse_unit(opt, arg);
     case OPT_PIN_ERROR: return number(opt, "pin-error", arg, 0.01, 50, &opt->fit.pin_error_mm);
     case OPT_REACH: return number(opt, "reach", arg, 0.5, 200, &opt->fit.reach_mm);
@@ -153,6 +185,12 @@ static int check(fit_options *opt)
         tool_error("where to? -o FACE.obj, FACE.ply or FACE.fbank");
     else if (!has_known_ending(opt->output))
         tool_error("-o %s: expected a name that ends in .obj, .ply or .fbank", opt->output);
+    else if (opt->fit.method != FAP_REGISTER_AUTO && opt->fit.method != FAP_REGISTER_ZHU)
+        tool_error("--method %s: not there yet; auto or zhu", fap_registration_name(opt->fit.method));
+    else if (opt->fit.subdivisions && opt->fit.method != FAP_REGISTER_ZHU)
+        tool_error("--subdivide belongs to --method zhu");
+    else if (opt->fit.subdivisions && !strcasecmp(strrchr(opt->output, '.'), ".fbank"))
+        tool_error("--subdivide: a bank's motions are those of the face as it is; write FACE.obj or .ply");
     else
         return 1;
     return usage(opt);

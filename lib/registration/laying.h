@@ -6,6 +6,7 @@
 #include <fap/studio/registration.h>
 
 #include "capture/rigid.h"
+#include "registration/loop.h"
 #include "surface/edges.h"
 #include "surface/nearest.h"
 
@@ -32,6 +33,8 @@ typedef struct laying {
     laid_pin *pin;
     uint32_t pin_count;
     /* The generic face. */
+    fap_generic fine_generic; /* where it was subdivided: what l->generic is, and ... */
+    loop_mesh rest;           /* ... its arrays */
     surface_edges edges;
     float (*at)[3], (*normal)[3]; /* laid so far */
 } laying;
@@ -48,7 +51,12 @@ void laying_note(const laying *l, const char *fmt, ...) __attribute__((format(pr
 /* Eyes, teeth, tongue, lashes: turned, moved and scaled as the skin around them was. */
 void laying_bring_inside(laying *l);
 
+/* One step of Loop's scheme: l->generic is a finer one from then on, whose first vertices are those of the one before. */
+fap_err laying_subdivide(laying *l);
+fap_err laying_fail(const laying *l, fap_err err, const char *text);
+
 /* The methods: l->at, from where the generic face is. */
 fap_err laying_auto(laying *l);
+fap_err laying_zhu(laying *l);
 
 #endif

@@ -12,7 +12,7 @@
 
 struct fap_registration {
     fap_registration_report report;
-    float (*position)[3];
+    fap_surface *surface;
     rigid_pose pose;
     double scale, size; /* scan to generic; generic to the person */
     fap_allocator alloc;
@@ -36,7 +36,9 @@ const char *fap_registration_name(int method)
 
 void fap_registration_config_init(fap_registration_config *cfg)
 {
-    *cfg = (fap_registration_config){ .struct_size = sizeof *cfg, .pin_error_mm = 1, .reach_mm = 12 };
+    *cfg = (fap_registration_config){
+        .struct_size = sizeof *cfg, .pin_error_mm = 1, .reach_mm = 12, .limit_mm = 15
+    };
 }
 
 /* --- for the methods --- */
@@ -66,10 +68,46 @@ void laying_note(const laying *l, const char *fmt, ...)
     va_end(args);
 }
 
-static fap_err fail(const laying *l, fap_err err, const char *text)
+fap_err laying_fail(const laying *l, fap_err err, const char *text)
 {
     snprintf(l->where, FAP_ERROR_TEXT_SIZE, "%s", text);
     return err;
+}
+
+/* The shape at rest and the one laid so far are made finer alike. */
+fap_err laying_subdivide(laying *l)
+{
+    const fap_generic *g = l->generic;
+    loop_mesh rest, at;
+
+    fap_err err = loop_subdivide(&rest, g->position, g->vertex_count, g->triangle, g->triangle_count, g->part,
+                                 g->mask, l->alloc);
+    if (err == FAP_OK)
+        err = loop_subdivide(&at, (const float(*)[3])l->at, g->vertex_count, g->triangle, g->triangle_count,
+                             NULL, NULL, l->alloc);
+    if (err != FAP_OK) {
+        loop_free(&rest, l->alloc);
+        return err;
+    }
+    loop_free(&l->rest, l->alloc);
+    l->rest = rest;
+    l->fine_generic = (fap_generic){ rest.vertex_count,
+                                     rest.triangle_count,
+                                     (const float(*)[3])rest.position,
+                                     (const uint32_t(*)[3])rest.triangle,
+                                     rest.part,
+                                     rest.mask };
+    l->generic = &l->fine_generic;
+    fap_mem_free(l->alloc, l->at);
+    l->at = at.position;
+    at.position = NULL;
+    loop_free(&at, l->alloc);
+    fap_mem_free(l->alloc, l->normal);
+    l->normal = fap_mem_calloc(l->alloc, rest.vertex_count, sizeof *l->normal);
+    surface_edges_free(&l->edges, l->alloc);
+    err = surface_edges_find(&l->edges, l->generic->triangle, l->generic->triangle_count,
+                             l->generic->vertex_count, l->alloc);
+    return l->normal ? err : FAP_E_NOMEM;
 }
 
 /* --- the pins say where the head is --- */
@@ -87,7 +125,8 @@ static fap_err take_pins(laying *l, const fap_pin *pin)
             p->share[k] = (double)pin[i].share[k];
             p->at[k] = (double)pin[i].at[k];
             if (p->vertex[k] >= l->generic->vertex_count || !isfinite(p->share[k]) || !isfinite(p->at[k]))
-                return fail(l, FAP_E_ARG, "a landmark names no vertex of the generic face, or no place");
+                return laying_fail(l, FAP_E_ARG,
+                                   "a landmark names no vertex of the generic face, or no place");
         }
     }
     return FAP_OK;
@@ -194,7 +233,7 @@ static fap_err align(laying *l)
 
     for (int round = 0; err == FAP_OK && round < ALIGN_ROUNDS; round++) {
         if (!align_once(l, &p))
-            err = fail(l, FAP_E_DATA, "the landmarks are all on one line, or in one place");
+            err = laying_fail(l, FAP_E_DATA, "the landmarks are all on one line, or in one place");
         else
             weigh(l, &p);
     }
@@ -290,18 +329,18 @@ static fap_err check_generic(const laying *l)
     const fap_generic *g = l->generic;
 
     if (!g->vertex_count || !g->triangle_count)
-        return fail(l, FAP_E_ARG, "the generic face has no triangle");
+        return laying_fail(l, FAP_E_ARG, "the generic face has no triangle");
     for (uint32_t t = 0; t < g->triangle_count; t++)
         for (int c = 0; c < 3; c++)
             if (g->triangle[t][c] >= g->vertex_count)
-                return fail(l, FAP_E_ARG, "the generic face has a triangle without a vertex");
+                return laying_fail(l, FAP_E_ARG, "the generic face has a triangle without a vertex");
     return FAP_OK;
 }
 
 static fap_err prepare(laying *l, const fap_surface *scan, const fap_pin *pin)
 {
     if (l->pin_count < 3)
-        return fail(l, FAP_E_ARG, "at least three landmarks are needed to tell where the face is");
+        return laying_fail(l, FAP_E_ARG, "at least three landmarks are needed to tell where the face is");
     fap_err err = check_generic(l);
     if (err == FAP_OK)
         err = take_pins(l, pin);
@@ -310,7 +349,7 @@ static fap_err prepare(laying *l, const fap_surface *scan, const fap_pin *pin)
     if (err == FAP_OK)
         err = bring_scan(l, scan);
     if (err == FAP_E_UNSUPPORTED)
-        return fail(l, err, "built without Embree (libembree-dev), which finds where a scan is near");
+        return laying_fail(l, err, "built without Embree (libembree-dev), which finds where a scan is near");
     if (err == FAP_OK)
         err = find_borders(l);
     return err == FAP_OK ? bring_generic(l) : err;
@@ -326,6 +365,7 @@ static void tidy(laying *l)
     fap_mem_free(l->alloc, l->pin);
     fap_mem_free(l->alloc, l->at);
     fap_mem_free(l->alloc, l->normal);
+    loop_free(&l->rest, l->alloc);
 }
 
 /* --- the person's size --- */
@@ -360,7 +400,7 @@ static void settle_size(const laying *l, fap_registration *r)
     r->report.turned_deg = acos(fmax(-1, fmin(1, (trace - 1) / 2))) * 57.29577951308232;
     for (uint32_t i = 0; i < l->generic->vertex_count; i++)
         for (int a = 0; a < 3; a++)
-            r->position[i][a] = (float)((double)l->at[i][a] * r->size);
+            r->surface->position[i][a] = (float)((double)l->at[i][a] * r->size);
 }
 
 void fap_registration_to_head(const fap_registration *r, const float scan[3], float head_mm[3])
@@ -376,11 +416,22 @@ void fap_registration_to_head(const fap_registration *r, const float scan[3], fl
 
 /* --- the whole --- */
 
+static fap_err make_surface(const laying *l, fap_registration *r)
+{
+    const fap_generic *g = l->generic;
+    const fap_err err = fap_surface_create(&r->surface, g->vertex_count, g->triangle_count, l->alloc);
+
+    if (err == FAP_OK)
+        memcpy(r->surface->triangle, g->triangle, g->triangle_count * sizeof *g->triangle);
+    return err;
+}
+
 static fap_err run(laying *l)
 {
     switch (l->cfg->method) {
     case FAP_REGISTER_AUTO: return laying_auto(l);
-    default: return fail(l, FAP_E_ARG, "no such method");
+    case FAP_REGISTER_ZHU: return laying_zhu(l);
+    default: return laying_fail(l, FAP_E_ARG, "no such method");
     }
 }
 
@@ -407,10 +458,11 @@ fap_err fap_register(fap_registration **out, const fap_generic *generic, const f
                  .where = where ? where : own,
                  .pin_count = pin_count };
     *l.where = '\0';
-    r->position = fap_mem_calloc(&alloc, (size_t)generic->vertex_count + 1, sizeof *r->position);
-    fap_err err = r->position ? prepare(&l, scan, pin) : FAP_E_NOMEM;
+    fap_err err = prepare(&l, scan, pin);
     if (err == FAP_OK)
         err = run(&l);
+    if (err == FAP_OK)
+        err = make_surface(&l, r);
     if (err == FAP_OK) {
         laying_measure(&l);
         settle_size(&l, r);
@@ -426,17 +478,22 @@ void fap_registration_close(fap_registration **r)
     if (!*r)
         return;
     const fap_allocator alloc = (*r)->alloc;
-    fap_mem_free(&alloc, (*r)->position);
+    fap_surface_close(&(*r)->surface);
     fap_mem_free(&alloc, *r);
     *r = NULL;
 }
 
 const float (*fap_registration_positions(const fap_registration *r))[3]
 {
-    return (const float(*)[3])r->position;
+    return (const float(*)[3])r->surface->position;
 }
 
 const fap_registration_report *fap_registration_report_get(const fap_registration *r)
 {
     return &r->report;
+}
+
+const fap_surface *fap_registration_surface(const fap_registration *r)
+{
+    return r->surface;
 }

@@ -273,3 +273,45 @@ TEST(registration, methods_have_names)
     assert_null(fap_registration_name(FAP_REGISTER_COUNT));
     assert_null(fap_registration_name(-1));
 }
+
+TEST(registration, zhu_meets_the_landmarks_and_then_the_scan)
+{
+    model m;
+    fap_registration_config cfg;
+
+    open_model(&m);
+    const uint32_t pins = click(&m);
+    fap_registration_config_init(&cfg);
+    cfg.method = FAP_REGISTER_ZHU;
+    fap_registration *r = lay(&m, pins, &cfg);
+    assert_true(fap_registration_report_get(r)->pin_rms_mm < 0.5);
+    assert_true(rms_off(&m, r) < 3);
+    fap_registration_close(&r);
+
+    cfg.limit_mm = 0.001; /* nothing is projected: the landmarks alone */
+    r = lay(&m, pins, &cfg);
+    assert_true(fap_registration_report_get(r)->pin_rms_mm < 0.01);
+    const double alone = rms_off(&m, r);
+    assert_true(alone > 0.1 && alone < 4);
+    fap_registration_close(&r);
+    close_model(&m);
+}
+
+TEST(registration, zhu_makes_a_finer_face)
+{
+    model m;
+    fap_registration_config cfg;
+
+    open_model(&m);
+    const uint32_t pins = click(&m);
+    fap_registration_config_init(&cfg);
+    cfg.method = FAP_REGISTER_ZHU;
+    cfg.subdivisions = 2;
+    fap_registration *r = lay(&m, pins, &cfg);
+    const fap_surface *s = fap_registration_surface(r);
+    assert_int_equal(s->triangle_count, 16 * m.generic.triangle_count);
+    assert_true(s->vertex_count > 8 * m.generic.vertex_count);
+    assert_true(fap_registration_report_get(r)->surface_rms_mm < 2);
+    fap_registration_close(&r);
+    close_model(&m);
+}

@@ -11,6 +11,8 @@ says '\.obj, \.ply or \.fbank'
 expect 2 "$B/fapbank" fit x.ply --landmarks p.csv -o x.obj --method best
 expect 1 "$B/fapbank" fit "$T/nowhere.ply" --landmarks p.csv --bank builtin -o "$T/x.obj"
 says 'nowhere'
+expect 2 "$B/fapbank" fit x.ply --landmarks p.csv -o x.fbank --method zhu --subdivide 1
+expect 2 "$B/fapbank" fit x.ply --landmarks p.csv -o x.obj --subdivide 1
 expect 0 "$B/fapbank" fit --help
 
 scans=$FAP_SHARED/data/faces/scans
@@ -36,3 +38,8 @@ for name in points before after wireframe distances; do
 done
 expect 0 "$B/fapbank" info "$T/anna.fbank"
 expect 0 "$B/fapplay" tests/assets/moments.fap --bank "$T/anna.fbank" -o "$T/points.csv" --csv points
+
+# The thesis's own way, and a face sixteen times as fine.
+expect 0 "$B/fapbank" fit "$scan" --landmarks "$points" --bank builtin --method zhu --subdivide 2 -o "$T/fine.ply" --json
+coarse=$(grep -c '^f ' "$T/anna.obj")
+grep -aq "element face $((16 * coarse))" "$T/fine.ply" || fail "not sixteen times as fine"

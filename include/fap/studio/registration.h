@@ -33,7 +33,7 @@ typedef struct fap_pin {
 
 typedef enum fap_registration_method {
     FAP_REGISTER_AUTO,    /**< the joined method; the default */
-    FAP_REGISTER_ZHU,     /**< RBF, subdivision, cylindrical or normal projection */
+    FAP_REGISTER_ZHU,     /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
     FAP_REGISTER_YANO,    /**< thin-plate template over a range image */
     FAP_REGISTER_LORENZO, /**< planar bones whose energy is least */
     FAP_REGISTER_COUNT
@@ -49,6 +49,9 @@ typedef struct fap_registration_config {
         mm_per_unit; /**< of the scan; 0: the metric unit that fits the generic face best, see the report */
     double pin_error_mm; /**< how far off a landmark with trust 1 may be, standard deviation; 1 */
     double reach_mm;     /**< skin farther than this from the laid face belongs to something else; 12 */
+    int subdivisions; /**< zhu: steps of Loop's scheme, 0 to 3; 0. fap_registration_surface() has the finer face */
+    int along_normals; /**< zhu: rays go along normals, not away from the head's axis; 0 */
+    double limit_mm;   /**< zhu: a ray that meets nothing before is given up; 15 */
     int (*progress)(void *user,
                     double done); /**< 0 to 1; non-zero ends the work with FAP_E_END. NULL: none */
     void *user;
@@ -87,6 +90,8 @@ FAP_API FAP_NODISCARD fap_err fap_register(fap_registration **out, const fap_gen
 FAP_API void fap_registration_close(fap_registration **r);
 /** Where each vertex of the generic face is on the scanned person: millimetres, head axes. [generic->vertex_count] */
 FAP_API const float (*fap_registration_positions(const fap_registration *r))[3];
+/** The face with its triangles; where it was subdivided, more than the generic one's, whose vertices are the first. */
+FAP_API const fap_surface *fap_registration_surface(const fap_registration *r);
 FAP_API const fap_registration_report *fap_registration_report_get(const fap_registration *r);
 /** A place of the scan in the head's axes and millimetres. */
 FAP_API void fap_registration_to_head(const fap_registration *r, const float scan[3], float head_mm[3]);
