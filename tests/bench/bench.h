@@ -143,6 +143,9 @@ double bench_glb_worst_mm(void);
 /* Frame @p t of smooth motion: every @p step-th FAP from 3 on. */
 void bench_wave(fap_frame *frame, int t, int step);
 
+/* Seconds with as many triangles as a laser scanner makes. */
+double bench_fit_700k_s(void);
+
 /* Motions on another face and back: of one structure, and through another. */
 double bench_retarget_us(void);
 double bench_retarget_error_mm(void);

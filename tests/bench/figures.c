@@ -221,8 +221,9 @@ const bench_figure bench_figures[] = {
           "of lips or lids, on the other one; mean", faces },
     BENCH_REGISTRATION(X)
 #undef X
-        { "retarget_us", "us", bench_retarget_us,
-          "a motion of the default face's 21,129 vertices on another head of its structure", "a face" },
+        { "fit_700k_s", "s", bench_fit_700k_s, "auto, the same face onto 700,000 triangles", faces },
+    { "retarget_us", "us", bench_retarget_us,
+      "a motion of the default face's 21,129 vertices on another head of its structure", "a face" },
     { "retarget_error_mm", "mm", bench_retarget_error_mm,
       "there and back, one structure: RMS over feature points and key models", "a face" },
     { "retarget_other_error_mm", "mm", bench_retarget_other_error_mm,

@@ -25,7 +25,7 @@ export DISPLAY
 start() {
     "$B/fapenc" track "$T/film.y4m" --labels "$T/labels" --mirrors 0 "$@" >"$T/out" 2>"$T/err" &
     picker=$!
-    window=$(timeout 30 xdotool search --sync --name 'where the dots are' | head -n 1)
+    window=$(timeout 30 xdotool search --sync --onlyvisible --name 'where the dots are' | head -n 1)
     [ -n "$window" ] || fail "no window: $(cat "$T/err")"
     timeout 10 xdotool windowfocus --sync "$window"
     sleep 0.5
