@@ -17,7 +17,7 @@ static const char help[] =
     "Usage: fapbank fit SCAN --landmarks POINTS.csv -o FACE.obj|FACE.ply|FACE.fbank [options]\n"
     "\n"
     "Lays a generic face onto a scan: every vertex then means the same place on every person that was "
-    "scanned. SCAN is an OBJ or\n"
+    "scanned. SCAN is an OBJ, GLB or\n"
     "PLY of up to 16 million triangles, in any unit and any axes.\n"
     "\n"
     "      --landmarks FILE  places in the scan, a line each: \"8.3,x,y,z\" (a feature point), \"48,x,y,z\" "

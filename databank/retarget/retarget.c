@@ -141,8 +141,20 @@ static int number_of(const char *name, int count, const char *(*name_of)(int))
     return 0;
 }
 
-static fap_err add_key(work *w, const char *name, const float (*delta)[3])
+/* "viseme_PP", "expression_joy": as fapplay -o NAME.glb calls them. */
+static const char *plain_name(const char *name)
 {
+    static const char *const prefixes[] = { "viseme_", "expression_" };
+
+    for (int i = 0; i < 2; i++)
+        if (!strncmp(name, prefixes[i], strlen(prefixes[i])))
+            return name + strlen(prefixes[i]);
+    return name;
+}
+
+static fap_err add_key(work *w, const char *given, const float (*delta)[3])
+{
+    const char *name = plain_name(given);
     const int expression = number_of(name, FAP_EXPRESSION_COUNT, fap_expression_name);
     const int viseme = number_of(name, FAP_VISEME_COUNT, fap_viseme_name), shape = fap_arkit_by_name(name);
 

@@ -8,7 +8,8 @@
 #include "base/mem.h"
 #include "surface/surface_driver.h"
 
-static const surface_driver *const drivers[] = { &surface_driver_ply, &surface_driver_obj };
+static const surface_driver *const drivers[] = { &surface_driver_ply, &surface_driver_gltf,
+                                                 &surface_driver_obj };
 
 /* Past this it is no length, and its square must not overflow. */
 static const float farthest = 1e15F;
@@ -194,5 +195,5 @@ fap_err fap_surface_read(fap_surface **out, const void *data, size_t size, const
             fap_surface_close(out);
         return err;
     }
-    return surface_fail(&src, FAP_E_UNKNOWN_FORMAT, "neither OBJ nor PLY");
+    return surface_fail(&src, FAP_E_UNKNOWN_FORMAT, "neither OBJ nor PLY nor GLB");
 }

@@ -279,6 +279,65 @@ TEST(surface, the_nearest_place_is_what_looking_at_every_triangle_finds)
     fap_surface_close(&s);
 }
 
+static fap_surface *read_corpus(const char *path)
+{
+    uint8_t *data;
+    size_t size;
+    fap_surface *s;
+
+    assert_int_equal(file_read(path, 1 << 20, &data, &size), FAP_OK);
+    assert_int_equal(fap_surface_read(&s, data, size, NULL, where), FAP_OK);
+    free(data);
+    return s;
+}
+
+TEST(surface, a_glb_has_its_nodes_transforms_and_its_targets_names)
+{
+    fap_surface *s = read_corpus("tests/fuzz/corpus/surface/square.glb");
+
+    assert_string_equal(s->format, "gltf");
+    assert_int_equal(s->vertex_count, 4);
+    assert_int_equal(s->triangle_count, 2);
+    assert_float_equal(s->position[2][0], 12, 0); /* twice as large, ten to the side */
+    assert_float_equal(s->position[2][1], 2, 0);
+    assert_int_equal(s->target_count, 2);
+    assert_string_equal(s->target[1].name, "one corner");
+    assert_float_equal(s->target[0].delta[3][2], 2, 0);
+    assert_float_equal(s->target[1].delta[2][1], 12, 0); /* sparse: 6, and the others none */
+    assert_float_equal(s->target[1].delta[1][1], 0, 0);
+    fap_surface_close(&s);
+}
+
+TEST(surface, a_strip_in_a_glb_turns_at_every_triangle)
+{
+    fap_surface *s = read_corpus("tests/fuzz/corpus/surface/strip.glb");
+
+    assert_int_equal(s->triangle_count, 2);
+    assert_int_equal(s->triangle[0][0], 0);
+    assert_int_equal(s->triangle[1][0], 2);
+    assert_int_equal(s->triangle[1][1], 1);
+    assert_float_equal(s->position[1][0], 0, 1e-6); /* turned by a quarter about z */
+    assert_float_equal(s->position[1][1], 1, 1e-6);
+    fap_surface_close(&s);
+}
+
+TEST(surface, a_glb_cut_anywhere_is_refused_or_smaller_never_a_crash)
+{
+    uint8_t *data;
+    size_t size;
+
+    assert_int_equal(file_read("tests/fuzz/corpus/surface/square.glb", 1 << 20, &data, &size), FAP_OK);
+    for (size_t cut = 0; cut < size; cut++) {
+        uint8_t *part = malloc(cut + 1);
+        fap_surface *s;
+        memcpy(part, data, cut);
+        if (fap_surface_read(&s, part, cut, NULL, where) == FAP_OK)
+            fap_surface_close(&s);
+        free(part);
+    }
+    free(data);
+}
+
 TEST(surface, a_real_scan_is_read_whole)
 {
     uint8_t *data;

@@ -23,6 +23,14 @@ expect 1 "$B/fapbank" retarget builtin --to "$T/part.obj" -o "$T/x.fbank"
 says 'not of one structure'
 [ ! -e "$T/x.fbank" ] || fail "a failure left an output"
 
+# A GLB of the player's own, in metres, back into a bank: the same motions, under the same names.
+printf '2.1 rest 25 1\n%s\n0 0\n' "$mask" >"$T/again.fap"
+expect 0 "$B/fapplay" "$T/again.fap" --bank builtin -o "$T/own.glb" --quiet
+cp "$T/vertices.csv" "$T/own.csv"
+if "$B/fapbank" fit "$T/large.obj" --landmarks "$T/vertices.csv" --bank builtin -o "$T/x.obj" 2>&1 | grep -q 'without Embree'; then
+    skip "built without Embree"
+fi
+
 # Shapes of another structure: a scan, and the scan with its lower half pulled down.
 scans=$FAP_SHARED/data/faces/scans
 [ -d "$scans" ] || skip "no scans: $scans is not there"
@@ -45,3 +53,9 @@ expect 0 "$B/fapbank" retarget builtin --from "$T/shapes" --landmarks "$T/marks.
 says '"motions": 1'
 expect 0 "$B/fapbank" info "$T/spoken.fbank"
 says 'JawOpen|unit'
+
+# The GLB has a metre as its unit and its vertices in the bank's order.
+expect 0 "$B/fapbank" retarget builtin --from "$T/own.glb" --landmarks "$T/marks.csv" --unit m -o "$T/own.fbank" --json
+says '"motions": [5-9][0-9]'
+expect 0 "$B/fapbank" info "$T/own.fbank"
+says 'joy|expression'
