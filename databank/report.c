@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See report.h. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -151,6 +152,7 @@ static void put_components(json *j, const fap_bank *bank)
     for (int i = 0; basis && i < basis->component_count; i++) {
         json_open(j, NULL, '{');
         json_number(j, "sigma_mm", basis->component[i].sigma_mm);
+        json_number(j, "eigenvalue_mm2", pow((double)basis->component[i].sigma_mm, 2));
         json_number(j, "cumulative", basis->component[i].ratio);
         json_close(j, '}');
     }
@@ -207,6 +209,13 @@ static void note_basis(const report *rep, const options *opt)
     tool_note("%s: %s, %d components of %d models, %.2f %% of the variance, %zu bytes", opt->output,
               fap_bank_name(rep->bank), basis->component_count, basis->model_count,
               100 * (double)basis->component[basis->component_count - 1].ratio, rep->size);
+    tool_note("  component  eigenvalue, mm2  contribution  cumulative");
+    for (int i = 0; i < basis->component_count; i++) {
+        const double sigma = (double)basis->component[i].sigma_mm,
+                     before = i ? (double)basis->component[i - 1].ratio : 0;
+        tool_note("  %9d  %15.1f  %12.4f  %10.4f", i + 1, sigma * sigma,
+                  (double)basis->component[i].ratio - before, (double)basis->component[i].ratio);
+    }
 }
 
 static void print_success(const report *rep, const options *opt)

@@ -46,6 +46,8 @@ says 'region map +borders'
 says 'components +none'
 expect 0 "$B/fapbank" pca "$T/a.fbank" -o "$T/pca.fbank" --components=8
 says '8 components of 32 models, [0-9.]+ % of the variance'
+says 'component +eigenvalue, mm2 +contribution +cumulative'
+says ' 8 +[0-9.]+ +0\.[0-9]+ +0\.[0-9]+'
 expect 0 "$B/fapbank" pca builtin --components=8 -q -o "$T/pca2.fbank"
 expect 0 "$B/fapbank" info "$T/pca.fbank"
 says 'component +8 +sigma'
