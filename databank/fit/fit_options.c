@@ -185,8 +185,6 @@ static int check(fit_options *opt)
         tool_error("where to? -o FACE.obj, FACE.ply or FACE.fbank");
     else if (!has_known_ending(opt->output))
         tool_error("-o %s: expected a name that ends in .obj, .ply or .fbank", opt->output);
-    else if (opt->fit.method != FAP_REGISTER_AUTO && opt->fit.method != FAP_REGISTER_ZHU)
-        tool_error("--method %s: not there yet; auto or zhu", fap_registration_name(opt->fit.method));
     else if (opt->fit.subdivisions && opt->fit.method != FAP_REGISTER_ZHU)
         tool_error("--subdivide belongs to --method zhu");
     else if (opt->fit.subdivisions && !strcasecmp(strrchr(opt->output, '.'), ".fbank"))

@@ -27,7 +27,7 @@ static const double far_off = 6, heads_differ_mm = 2.5;
 
 enum { ALIGN_ROUNDS = 8, NORMAL_ROUNDS = 3 };
 
-static const char *const names[FAP_REGISTER_COUNT] = { "auto", "zhu", "yano", "lorenzo" };
+static const char *const names[FAP_REGISTER_COUNT] = { "auto", "zhu" };
 
 const char *fap_registration_name(int method)
 {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /** @file
- * Laying a generic face onto a scan, so that every vertex means the same place on every person: consistent parameterisation
- * (Zhu 2006 chapter 4), template fitting (Yano and Harada 2009 section 3), mesh registration (Sanchez Lorenzo et al. 2003
- * section 6), and what those three make together. Part of libfap-studio. docs/shape.md tells them apart.
+ * Laying a generic face onto a scan, so that every vertex means the same place on every person: consistent parameterisation as
+ * Zhu 2006 has it (chapter 4), and a joined method. Part of libfap-studio. docs/shape.md tells them apart.
  */
 #ifndef FAP_STUDIO_REGISTRATION_H
 #define FAP_STUDIO_REGISTRATION_H
@@ -34,11 +33,9 @@ typedef struct fap_pin {
 typedef enum fap_registration_method {
     FAP_REGISTER_AUTO,    /**< the joined method; the default */
     FAP_REGISTER_ZHU,     /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
-    FAP_REGISTER_YANO,    /**< thin-plate template over a range image */
-    FAP_REGISTER_LORENZO, /**< planar bones whose energy is least */
     FAP_REGISTER_COUNT
 } fap_registration_method;
-/** "auto", "zhu", "yano", "lorenzo"; NULL for another number. Static. */
+/** "auto", "zhu"; NULL for another number. Static. */
 FAP_API const char *fap_registration_name(int method);
 
 /** Start from fap_registration_config_init(). */
