@@ -131,7 +131,7 @@ $(B)/fapenc: $(B)/encoder/main.o $(B)/libfap-enc.a $(B)/libfap-render.a $(BASE)
 $(B)/libfap-play.a: $(call obj,$(filter-out player/main.c,$(PLAY_SRC))) $(if $(IMGUI),$(B)/player/window/panel_imgui.o)
 $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(SHAPE_LIBS) -lm
+	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lm
 $(B)/libfap-databank.a: $(call obj,$(filter-out databank/main.c,$(BANK_SRC)))
 $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
@@ -149,7 +149,7 @@ ALL_LIBS := $(PLOT_LIBS) $(PLAY_LIBS) $(SHAPE_LIBS) -lm
 
 $(B)/mirror-film $(B)/mirror-compare $(B)/mirror-study: $(B)/mirror-%: $(B)/tests/track/main_%.o $(B)/libfap-film.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(SHAPE_LIBS) -lm
+	$(Q)$(LINK) $(STUDIO_LIBS) -lm
 $(B)/unit: $(call obj,$(TEST_SRC)) $(B)/libfap-film.a $(B)/libfap-enc.a $(B)/libfap-play.a $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
 	$(Q)$(LINK) -lcmocka $(ALL_LIBS)
@@ -161,7 +161,7 @@ $(B)/fapenc $(B)/fapplay $(B)/fapplay-lines: $(if $(SAN),$(B)/tests/asan/dlclose
 # fapplay with lines that are files: tests/cli/window_lines.sh.
 $(B)/fapplay-lines: $(B)/player/main.o $(B)/tests/gpio/files.o $(B)/libfap-play.a $(B)/libfap-render.a $(filter-out $(B)/libfap-gpio-%,$(BASE))
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(SHAPE_LIBS) -lpthread -lm
+	$(Q)$(LINK) $(RENDER_LIBS) $(PLAY_LIBS) $(STUDIO_LIBS) -lpthread -lm
 
 # Streams written field by field (docs/conformance.md). Needs no cmocka: it runs wherever libfap does.
 CONF_SRC := $(wildcard tests/conformance/*.c)
