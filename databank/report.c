@@ -179,6 +179,43 @@ static void put_maps(json *j, const fap_bank *bank, const numbers *n)
     put_components(j, bank);
 }
 
+static void note_scans(const recipe_outcome *o)
+{
+    if (o->scan_count)
+        tool_note(
+            "  scan              off it, mm  landmarks   seen  folded  head's rounds  goes, mm  masked");
+    for (int i = 0; i < o->scan_count; i++) {
+        const fap_expression_report *r = &o->scan[i].report;
+        tool_note("  %-16s  %10.3f  %9.2f  %4.0f%%  %6u  %13u  %8.1f  %6u", o->scan[i].name,
+                  r->fit.surface_rms_mm, r->fit.pin_rms_mm,
+                  100.0 * r->fit.seen / (r->fit.skin ? r->fit.skin : 1), (unsigned)r->fit.folded,
+                  (unsigned)r->icp_rounds, r->moves_mm, (unsigned)r->masked);
+    }
+}
+
+static void put_scans(json *j, const recipe_outcome *o)
+{
+    if (!o->scan_count)
+        return;
+    json_open(j, "scans", '[');
+    for (int i = 0; i < o->scan_count; i++) {
+        const fap_expression_report *r = &o->scan[i].report;
+        json_open(j, NULL, '{');
+        json_string(j, "name", o->scan[i].name);
+        json_number(j, "surface_rms_mm", r->fit.surface_rms_mm);
+        json_integer(j, "skin_vertices", r->fit.skin);
+        json_integer(j, "seen_vertices", r->fit.seen);
+        json_integer(j, "folded_edges", r->fit.folded);
+        json_integer(j, "icp_rounds", r->icp_rounds);
+        json_number(j, "icp_before_mm", r->icp_before_mm);
+        json_number(j, "icp_after_mm", r->icp_after_mm);
+        json_integer(j, "masked_vertices", r->masked);
+        json_number(j, "moves_mm", r->moves_mm);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
 static void print_json(const report *rep, const options *opt, const numbers *n)
 {
     json j = { .out = stdout };
@@ -199,6 +236,7 @@ static void print_json(const report *rep, const options *opt, const numbers *n)
     put_keys(&j, rep->bank);
     put_maps(&j, rep->bank, n);
     observed_put(&j, rep->bank);
+    put_scans(&j, &rep->recipe);
     json_close(&j, '}');
 }
 
@@ -234,6 +272,8 @@ static void print_success(const report *rep, const options *opt)
     else if (strcmp(opt->output, "-"))
         tool_note("%s: %s, %u vertices, %d key models", opt->output, fap_bank_name(rep->bank),
                   fap_bank_mesh(rep->bank)->vertex_count, fap_bank_key_count(rep->bank));
+    if (opt->command == COMMAND_BUILD)
+        note_scans(&rep->recipe);
 }
 
 static int print_failure(const report *rep, const options *opt, fap_err err)
@@ -246,6 +286,10 @@ static int print_failure(const report *rep, const options *opt, fap_err err)
     if (err == FAP_E_UNSUPPORTED && opt->command == COMMAND_RENDER) {
         tool_error("cannot render: %s", rep->where);
         return EXIT_MISSING;
+    }
+    if (*rep->recipe.why) {
+        tool_error("%s: %s", rep->where, rep->recipe.why);
+        return tool_exit_code(err);
     }
     tool_error("%s: %s", rep->where, err == FAP_E_IO && errno ? strerror(errno) : fap_strerror(err));
     return err == FAP_E_ARG ? EXIT_USAGE : EXIT_DATA;

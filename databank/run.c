@@ -8,9 +8,9 @@
 #include <fap/fat.h>
 
 #include "common/file.h"
-#include "databank/import_makehuman.h"
+#include "databank/build/import_makehuman.h"
 #include "databank/paint.h"
-#include "databank/recipe.h"
+#include "databank/build/recipe.h"
 #include "databank/run.h"
 #include "databank/sheet.h"
 
@@ -56,7 +56,7 @@ static fap_err make(fap_bank_builder **out, const char *recipe, report *rep)
     if (!strcmp(recipe, "builtin"))
         return blame(rep, recipe, make_builtin(out));
     if (recipe_is(recipe))
-        return recipe_make(out, recipe, rep->where, sizeof rep->where);
+        return recipe_make(out, recipe, &rep->recipe, rep->where, sizeof rep->where);
 #if !defined(HAVE_ZLIB)
     rep->missing = "zlib";
 #elif !defined(HAVE_JPEG)

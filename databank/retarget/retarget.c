@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See retarget.h. */
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <fap/arkit.h>
+#include <fap/studio/expression.h>
 #include <fap/studio/landmarks.h>
 #include <fap/studio/retarget.h>
 #include <fap/tables.h>
 
-#include "capture/rigid.h"
 #include "common/bank_file.h"
 #include "common/file.h"
 #include "common/json.h"
@@ -165,67 +164,6 @@ static fap_err add_key(work *w, const char *given, const float (*delta)[3])
     return fap_bank_builder_key(w->out, FAP_KEY_UNIT, 0, shape >= 0 ? fap_arkit_name(shape) : name, delta);
 }
 
-/* --- the jaw --- */
-
-/* Chin and jaw line: where they go together as a body, the jaw has moved, and lower teeth and tongue with it. */
-static const char *const jaw_points[] = { "2.1", "2.10", "2.11", "2.12", "2.13", "2.14" };
-enum { JAW_POINTS = 6 };
-/* Less is chewing gum in the skin; and a body leaves no more than this share of the motion. */
-static const double jaw_moves_mm = 2, jaw_bends = 0.4;
-
-static double length2(const double v[3])
-{
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-}
-
-/* How the jaw has moved; 0: it has not. */
-static int find_jaw(const work *w, const float (*delta)[3], rigid_pose *pose)
-{
-    double from[JAW_POINTS][3], to[JAW_POINTS][3], weight[JAW_POINTS], moved = 0, left = 0;
-    uint32_t n = 0;
-
-    for (int i = 0; i < JAW_POINTS; i++) {
-        const fap_bank_point *p = fap_bank_point_get(w->bank, fap_point_by_name(jaw_points[i]));
-        if (!p->present || !p->vertex_count)
-            continue;
-        for (int a = 0; a < 3; a++) {
-            from[n][a] = (double)w->generic.position[p->vertex[0]][a];
-            to[n][a] = from[n][a] + (double)delta[p->vertex[0]][a];
-            moved += pow(to[n][a] - from[n][a], 2);
-        }
-        weight[n++] = 1;
-    }
-    if (!n || sqrt(moved / n) < jaw_moves_mm ||
-        !rigid_fit((const double(*)[3])from, (const double(*)[3])to, weight, n, pose))
-        return 0;
-    for (uint32_t i = 0; i < n; i++) {
-        double there[3];
-        rigid_apply(pose, from[i], there);
-        for (int a = 0; a < 3; a++)
-            there[a] -= to[i][a];
-        left += length2(there);
-    }
-    return sqrt(left / n) < jaw_bends * sqrt(moved / n);
-}
-
-static void carry_jaw(const work *w, float (*delta)[3])
-{
-    rigid_pose pose;
-
-    if (!find_jaw(w, (const float(*)[3])delta, &pose))
-        return;
-    for (uint32_t i = 0; i < w->generic.vertex_count; i++) {
-        double at[3], there[3];
-        if (w->generic.part[i] != FAP_PART_TEETH_LOWER && w->generic.part[i] != FAP_PART_TONGUE)
-            continue;
-        for (int a = 0; a < 3; a++)
-            at[a] = (double)w->generic.position[i][a];
-        rigid_apply(&pose, at, there);
-        for (int a = 0; a < 3; a++)
-            delta[i][a] = (float)(there[a] - at[a]);
-    }
-}
-
 static int add_motions(work *w, fault *f)
 {
     const uint32_t n = w->generic.vertex_count;
@@ -244,7 +182,7 @@ static int add_motions(work *w, fault *f)
             for (int a = 0; a < 3; a++)
                 delta[i][a] *= factor;
         if (err == FAP_OK)
-            carry_jaw(w, delta);
+            err = fap_motion_carry(w->bank, w->generic.position, delta);
         if (err == FAP_OK)
             err = add_key(w, w->shapes.name[s], (const float(*)[3])delta);
         w->keys++;

@@ -274,7 +274,7 @@ static double mean_edge(const laying *l)
         if (!laying_is_skin(l, l->edges.edge[i].low))
             continue;
         sum += sqrt(pow((double)a[0] - (double)b[0], 2) + pow((double)a[1] - (double)b[1], 2) +
-                    pow((double)a[2] - (double)b[2], 4));
+                    pow((double)a[2] - (double)b[2], 2));
         count++;
     }
     return count ? sum / count : usual_edge_mm;

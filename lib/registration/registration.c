@@ -226,6 +226,14 @@ static void weigh(const laying *l, paired *p)
     }
 }
 
+/* Where the caller has done it, the pins only say what they say. */
+static fap_err keep_place(laying *l)
+{
+    l->pose = (rigid_pose){ .r = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+    l->scale = 1;
+    return FAP_OK;
+}
+
 static fap_err align(laying *l)
 {
     paired p;
@@ -345,7 +353,7 @@ static fap_err prepare(laying *l, const fap_surface *scan, const fap_pin *pin)
     if (err == FAP_OK)
         err = take_pins(l, pin);
     if (err == FAP_OK)
-        err = align(l);
+        err = l->cfg->in_place ? keep_place(l) : align(l);
     if (err == FAP_OK)
         err = bring_scan(l, scan);
     if (err == FAP_E_UNSUPPORTED)
@@ -385,7 +393,9 @@ static double guess_unit(double scale)
 
 static void settle_size(const laying *l, fap_registration *r)
 {
-    const double unit = l->cfg->mm_per_unit > 0 ? l->cfg->mm_per_unit : guess_unit(l->scale);
+    const double unit = l->cfg->in_place          ? 1
+                        : l->cfg->mm_per_unit > 0 ? l->cfg->mm_per_unit
+                                                  : guess_unit(l->scale);
 
     r->report.unit_known = unit > 0;
     r->size = unit > 0 ? unit / l->scale : 1;

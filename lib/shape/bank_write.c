@@ -219,6 +219,14 @@ static int number_fits(fap_key_kind kind, int number)
                                         : number == 0;
 }
 
+static build_key *find_key(fap_bank_builder *b, fap_key_kind kind, int number, const char *name)
+{
+    for (int k = 0; k < b->key_count; k++)
+        if (b->key[k].kind == kind && b->key[k].number == number && (number || !strcmp(b->key[k].name, name)))
+            return &b->key[k];
+    return NULL;
+}
+
 fap_err fap_bank_builder_key(fap_bank_builder *b, fap_key_kind kind, int number, const char *name,
                              const float (*delta)[3])
 {
@@ -226,17 +234,25 @@ fap_err fap_bank_builder_key(fap_bank_builder *b, fap_key_kind kind, int number,
         return FAP_E_ARG;
     if (!sane(delta, b->vertex_count))
         return FAP_E_DATA;
-    if (b->key_count == FBANK_MAX_KEYS)
+    build_key *k = find_key(b, kind, number, name);
+    if (!k && b->key_count == FBANK_MAX_KEYS)
         return FAP_E_LIMIT;
-    build_key *k = &b->key[b->key_count];
-    *k = (build_key){ .kind = kind,
-                      .number = number,
-                      .delta = copy_of(delta, b->vertex_count, sizeof *delta) };
-    strcpy(k->name, name);
-    if (!k->delta)
+    float(*copied)[3] = copy_of(delta, b->vertex_count, sizeof *delta);
+    if (!copied)
         return FAP_E_NOMEM;
-    b->key_count++;
+    if (k)
+        free(k->delta);
+    else
+        k = &b->key[b->key_count++];
+    *k = (build_key){ .kind = kind, .number = number, .delta = copied };
+    strcpy(k->name, name);
     return FAP_OK;
+}
+
+void fap_bank_builder_forget_keys(fap_bank_builder *b)
+{
+    while (b->key_count)
+        free(b->key[--b->key_count].delta);
 }
 
 static const build_key *find_unit(const fap_bank_builder *b, const char *name)
@@ -266,7 +282,8 @@ fap_err fap_bank_builder_models(fap_bank_builder *b)
         blend_in(b, &r, sum);
         if (!r.last)
             continue;
-        err = fap_bank_builder_key(b, r.kind, r.number, r.name, (const float(*)[3])sum);
+        if (!find_key(b, r.kind, r.number, r.name))
+            err = fap_bank_builder_key(b, r.kind, r.number, r.name, (const float(*)[3])sum);
         memset(sum, 0, b->vertex_count * sizeof *sum);
     }
     free(sum);

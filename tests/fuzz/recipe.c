@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "databank/recipe.h"
+#include "databank/build/recipe.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -76,17 +76,17 @@ static void write_and_load(fap_bank_builder *builder)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const recipe_files files = { read_any, NULL };
+    const recipe_files files = { .read = read_any };
+    static recipe_outcome outcome;
     fap_bank_builder *builder;
-    int line;
     char *text = malloc(size + 1);
 
     check(text != NULL);
     if (size)
         memcpy(text, data, size);
     text[size] = '\0';
-    const fap_err err = recipe_parse(&builder, text, &files, &line);
-    check((err == FAP_OK) == (builder != NULL) && (err != FAP_OK || !line));
+    const fap_err err = recipe_parse(&builder, text, &files, &outcome);
+    check((err == FAP_OK) == (builder != NULL) && (err != FAP_OK || !outcome.line));
     if (builder)
         write_and_load(builder);
     fap_bank_builder_close(&builder);

@@ -51,7 +51,7 @@ FAP_API FAP_NODISCARD fap_err fap_bank_builder_place(fap_bank_builder *b, int po
 FAP_API void fap_bank_builder_eye(fap_bank_builder *b, int right, const float centre_mm[3], float radius_mm);
 
 /**
- * Add a key model; the vectors are copied.
+ * Add a key model; the vectors are copied. It takes the place of one of its kind and number, or of its kind and name.
  * @param number  of a viseme or expression, else 0
  * @param delta   [vertex_count] motion from neutral to the pose, millimetres
  * @return FAP_OK, FAP_E_ARG (name, kind or number), FAP_E_DATA (not a number), FAP_E_LIMIT, FAP_E_NOMEM
@@ -60,9 +60,11 @@ FAP_API FAP_NODISCARD fap_err fap_bank_builder_key(fap_bank_builder *b, fap_key_
                                                    const char *name, const float (*delta)[3]);
 /**
  * Add visemes, expressions and extras as the library's own recipes blend them (fap_tables/key_models.csv)
- * from the units added so far. Units a face has not got are left out of a blend.
+ * from the units added so far. Units a face has not got are left out of a blend; models that were added before stay.
  */
 FAP_API FAP_NODISCARD fap_err fap_bank_builder_models(fap_bank_builder *b);
+/** As if no key had been added. */
+FAP_API void fap_bank_builder_forget_keys(fap_bank_builder *b);
 
 /** Other colours for the mesh. @param colour  [vertex_count] */
 FAP_API void fap_bank_builder_colours(fap_bank_builder *b, const uint8_t (*colour)[4]);

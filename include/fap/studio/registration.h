@@ -31,8 +31,8 @@ typedef struct fap_pin {
 } fap_pin;
 
 typedef enum fap_registration_method {
-    FAP_REGISTER_AUTO,    /**< the joined method; the default */
-    FAP_REGISTER_ZHU,     /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
+    FAP_REGISTER_AUTO, /**< the joined method; the default */
+    FAP_REGISTER_ZHU,  /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
     FAP_REGISTER_COUNT
 } fap_registration_method;
 /** "auto", "zhu"; NULL for another number. Static. */
@@ -44,6 +44,7 @@ typedef struct fap_registration_config {
     fap_registration_method method;
     double
         mm_per_unit; /**< of the scan; 0: the metric unit that fits the generic face best, see the report */
+    int in_place; /**< 1: the scan and its pins are in millimetres and the head's axes already; mm_per_unit is of no use */
     double pin_error_mm; /**< how far off a landmark with trust 1 may be, standard deviation; 1 */
     double reach_mm;     /**< skin farther than this from the laid face belongs to something else; 12 */
     int subdivisions; /**< zhu: steps of Loop's scheme, 0 to 3; 0. fap_registration_surface() has the finer face */

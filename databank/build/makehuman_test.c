@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "databank/import_makehuman.h"
+#include "databank/build/import_makehuman.h"
 #include "shape/bytes.h"
 
 static int take(void *user, const void *data, size_t size)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "databank/makehuman.h"
+#include "databank/build/makehuman.h"
 
 /* The plane rises to the back: a level one would leave the tips of the shoulders. */
 float mh_height_over_cut(const float base_dm[3])

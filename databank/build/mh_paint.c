@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "databank/makehuman.h"
+#include "databank/build/makehuman.h"
 
 typedef struct rgb {
     float r, g, b;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "databank/makehuman.h"
+#include "databank/build/makehuman.h"
 #include "shape/target.h"
 
 const char *const mh_unit_names[MH_UNITS] = {

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "databank/import_makehuman.h"
-#include "databank/makehuman.h"
+#include "databank/build/import_makehuman.h"
+#include "databank/build/makehuman.h"
 #include "gen/makehuman_points.h"
 
 #define POINT(group, index) #group "." #index

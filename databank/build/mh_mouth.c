@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "databank/makehuman.h"
+#include "databank/build/makehuman.h"
 
 enum { GRID_W = 256, GRID_H = 96, PASSES = 4 };
 

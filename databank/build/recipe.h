@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+/* Text recipes: meshes of one topology, or scans of one person, into a databank. fapbank(1) describes the language. */
+#ifndef DATABANK_BUILD_RECIPE_H
+#define DATABANK_BUILD_RECIPE_H
+
+#include <stddef.h>
+
+#include <fap/studio/bank_build.h>
+#include <fap/studio/expression.h>
+
+enum { RECIPE_MAX_SCANS = 64, RECIPE_NAME_SIZE = 32 };
+
+/* Where a recipe's files come from, by the name it has for them: malloc'ed bytes, one NUL behind them. */
+typedef struct recipe_files {
+    fap_err (*read)(void *user, const char *name, uint8_t **data, size_t *size);
+    /* Something takes long, and this is what; may be NULL. */
+    void (*working)(void *user, const char *what);
+    void *user;
+} recipe_files;
+
+/* What became of one scan. */
+typedef struct recipe_scan {
+    char name[RECIPE_NAME_SIZE];  /* "at rest", "joy" ... */
+    fap_expression_report report; /* at rest: of its fit alone */
+} recipe_scan;
+
+typedef struct recipe_outcome {
+    int line;                      /* at fault; 0: none is, but the mesh is missing */
+    char why[FAP_ERROR_TEXT_SIZE]; /* "": what the error's own text says */
+    int scan_count;
+    recipe_scan scan[RECIPE_MAX_SCANS];
+} recipe_outcome;
+
+/* The language itself. @p text is changed; its first line is not looked at. *out is NULL unless FAP_OK. */
+fap_err recipe_parse(fap_bank_builder **out, char *text, const recipe_files *files, recipe_outcome *outcome);
+
+/* 1 where the file begins with a recipe's first line, "fapbank recipe". */
+int recipe_is(const char *path);
+
+/* Files are named relative to the recipe. @p bad gets "FILE:LINE" of what is at fault. */
+fap_err recipe_make(fap_bank_builder **out, const char *path, recipe_outcome *outcome, char *bad,
+                    size_t bad_size);
+
+#endif
