@@ -16,7 +16,8 @@ static const char usage[] =
     "       fapbank render B.fbank -o S.png    a contact sheet of all key models\n"
     "       fapbank fat B.fbank -o B.fat       face animation tables for the smallest clients\n"
     "       fapbank fit SCAN --landmarks P.csv -o B.fbank   a face onto a scan; fapbank fit --help\n"
-    "       fapbank retarget B.fbank --to FACE.obj -o B2.fbank   motions on another face; fapbank retarget --help\n"
+    "       fapbank retarget B.fbank --to FACE.obj -o B2.fbank   motions on another face; fapbank retarget "
+    "--help\n"
     "       fapbank pca B.fbank -o B2.fbank    the bank with principal components of its key models\n"
     "\n"
     "RECIPE is\n"
@@ -27,6 +28,7 @@ static const char usage[] =
     "A bank is a .fbank file or \"builtin\".\n"
     "\n"
     "  -o, --output=FILE   where to write; \"-\" is standard output\n"
+    "      --pictures=DIR  of build from scans: each scan and the face on it\n"
     "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
     "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
     "      --camera=NAME   front, left, right or three-quarter\n"
@@ -50,12 +52,23 @@ static const char usage[] =
     "\n"
     "exit status: 0 done, 1 bad data, 2 bad usage, 3 built without what this needs\n";
 
-enum { OPT_COLUMNS = 256, OPT_TILE, OPT_CAMERA, OPT_GL, OPT_UNITS, OPT_MASKS, OPT_REGIONS, OPT_COMPONENTS };
+enum {
+    OPT_COLUMNS = 256,
+    OPT_TILE,
+    OPT_CAMERA,
+    OPT_GL,
+    OPT_UNITS,
+    OPT_MASKS,
+    OPT_REGIONS,
+    OPT_COMPONENTS,
+    OPT_PICTURES
+};
 
 static const struct option long_options[] = {
     { "output", required_argument, NULL, 'o' },
     { "columns", required_argument, NULL, OPT_COLUMNS },
     { "tile", required_argument, NULL, OPT_TILE },
+    { "pictures", required_argument, NULL, OPT_PICTURES },
     { "json", no_argument, NULL, 'j' },
     { "camera", required_argument, NULL, OPT_CAMERA },
     { "gl", required_argument, NULL, OPT_GL },
@@ -123,6 +136,7 @@ static int take_option(options *opt, int option)
     case OPT_REGIONS: opt->paint = PAINT_REGIONS; return 1;
     case OPT_COMPONENTS:
         return parse_number(optarg, 1, 128, &opt->components) || wrong(opt, "bad --components ", optarg);
+    case OPT_PICTURES: opt->pictures = optarg; return 1;
     case 'j': opt->json = 1; return 1;
     case 'q': tool_quiet = 1; return 1;
     case 'h': fputs(usage, stdout); return stop(opt, EXIT_OK);
@@ -159,6 +173,8 @@ static int take_arguments(options *opt, int count, char **argument)
     opt->input = argument[1];
     if (opt->command != COMMAND_INFO && !opt->output)
         return wrong(opt, "-o FILE is missing", "");
+    if (opt->pictures && opt->command != COMMAND_BUILD)
+        return wrong(opt, "--pictures belongs to build, fit and retarget", "");
     if (opt->json && opt->output && !strcmp(opt->output, "-"))
         return wrong(opt, "--json and -o - both want standard output", "");
     return 1;

@@ -289,7 +289,7 @@ static int print_failure(const report *rep, const options *opt, fap_err err)
     }
     if (*rep->recipe.why) {
         tool_error("%s: %s", rep->where, rep->recipe.why);
-        return tool_exit_code(err);
+        return err == FAP_E_UNSUPPORTED ? EXIT_MISSING : tool_exit_code(err);
     }
     tool_error("%s: %s", rep->where, err == FAP_E_IO && errno ? strerror(errno) : fap_strerror(err));
     return err == FAP_E_ARG ? EXIT_USAGE : EXIT_DATA;

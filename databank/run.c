@@ -8,7 +8,9 @@
 #include <fap/fat.h>
 
 #include "common/file.h"
+#include "common/tool.h"
 #include "databank/build/import_makehuman.h"
+#include "databank/drawing.h"
 #include "databank/paint.h"
 #include "databank/build/recipe.h"
 #include "databank/run.h"
@@ -49,14 +51,59 @@ static fap_err make_builtin(fap_bank_builder **out)
     return err;
 }
 
-static fap_err make(fap_bank_builder **out, const char *recipe, report *rep)
+/* --- recipes --- */
+
+static void say_working(void *user, const char *what)
 {
+    (void)user;
+    tool_note("%s", what);
+}
+
+static int draw_laid(const drawing *d, const recipe_laid *l)
+{
+    char name[64];
+    fap_bank *face = NULL, *scan = NULL;
+
+    snprintf(name, sizeof name, "%02d-%s", l->number, l->name);
+    const int ok = drawing_of_face(d, &face, l->like, l->face, NULL) &&
+                   drawing_of_scan(d, &scan, face, l->scan, l->in_head) &&
+                   drawing_save_pair(d, scan, face, name);
+    fap_bank_close(&scan);
+    fap_bank_close(&face);
+    return ok;
+}
+
+static fap_err show_laid(void *user, const recipe_laid *l)
+{
+    return draw_laid(user, l) ? FAP_OK : FAP_E_IO;
+}
+
+static fap_err make_recipe(fap_bank_builder **out, const options *opt, report *rep)
+{
+    fault f = { 0 };
+    drawing pictures = { opt->pictures, opt->sheet.gl, &f };
+    const recipe_watch watch = { say_working, opt->pictures ? show_laid : NULL, &pictures };
+
+    fap_err err = opt->pictures && !drawing_open_folder(&pictures) ? FAP_E_IO : FAP_OK;
+    if (err == FAP_OK)
+        err = recipe_make(out, opt->input, &watch, &rep->recipe, rep->where, sizeof rep->where);
+    if (*f.text) {
+        snprintf(rep->recipe.why, sizeof rep->recipe.why, "%.200s", f.text);
+        if (f.exit_status == EXIT_MISSING)
+            err = FAP_E_UNSUPPORTED;
+    }
+    return err;
+}
+
+static fap_err make(fap_bank_builder **out, const options *opt, report *rep)
+{
+    const char *recipe = opt->input;
     static const char makehuman[] = "makehuman:";
 
     if (!strcmp(recipe, "builtin"))
         return blame(rep, recipe, make_builtin(out));
     if (recipe_is(recipe))
-        return recipe_make(out, recipe, &rep->recipe, rep->where, sizeof rep->where);
+        return make_recipe(out, opt, rep);
 #if !defined(HAVE_ZLIB)
     rep->missing = "zlib";
 #elif !defined(HAVE_JPEG)
@@ -179,7 +226,7 @@ static fap_err add_basis(const options *opt, report *rep)
 static fap_err build(const options *opt, report *rep)
 {
     fap_bank_builder *b;
-    fap_err err = make(&b, opt->input, rep);
+    fap_err err = make(&b, opt, rep);
 
     if (!err)
         err = write_product(&(product){ write_bank, check_bank, b }, opt, rep);

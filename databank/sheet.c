@@ -180,7 +180,8 @@ static fap_err open_face(sheet *s)
 static fap_err open_pictures(sheet *s, char *where)
 {
     const int rows = (count_wanted(s) + s->style->columns - 1) / s->style->columns;
-    fap_err err = renderer_create(&s->renderer, s->style->gl, s->bank, s->style->tile_px, s->style->tile_px, where);
+    fap_err err =
+        renderer_create(&s->renderer, s->style->gl, s->bank, s->style->tile_px, s->style->tile_px, where);
 
     if (!err)
         err = image_create(&s->tile, s->style->tile_px, s->style->tile_px);

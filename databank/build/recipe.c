@@ -6,7 +6,6 @@
 
 #include "common/bank_file.h"
 #include "common/file.h"
-#include "common/tool.h"
 #include "databank/build/recipe_state.h"
 #include "shape/number.h"
 
@@ -218,9 +217,10 @@ static fap_err take_lines(recipe *r, char *text)
     return r->builder ? FAP_OK : FAP_E_DATA;
 }
 
-fap_err recipe_parse(fap_bank_builder **out, char *text, const recipe_files *files, recipe_outcome *outcome)
+fap_err recipe_parse(fap_bank_builder **out, char *text, const recipe_files *files, const recipe_watch *watch,
+                     recipe_outcome *outcome)
 {
-    recipe r = { .files = files, .outcome = outcome, .name = "face", .scale = 1 };
+    recipe r = { .files = files, .watch = watch, .outcome = outcome, .name = "face", .scale = 1 };
 
     *outcome = (recipe_outcome){ 0 };
     fap_expression_config_init(&r.person.config);
@@ -246,16 +246,10 @@ static fap_err read_beside(void *user, const char *name, uint8_t **data, size_t 
     return n < 0 || (size_t)n >= sizeof path ? FAP_E_ARG : file_read(path, MAX_MESH, data, size);
 }
 
-static void say_working(void *user, const char *what)
+fap_err recipe_make(fap_bank_builder **out, const char *path, const recipe_watch *watch,
+                    recipe_outcome *outcome, char *bad, size_t bad_size)
 {
-    (void)user;
-    tool_note("%s", what);
-}
-
-fap_err recipe_make(fap_bank_builder **out, const char *path, recipe_outcome *outcome, char *bad,
-                    size_t bad_size)
-{
-    const recipe_files files = { read_beside, say_working, (char *)(uintptr_t)path };
+    const recipe_files files = { read_beside, (char *)(uintptr_t)path };
     uint8_t *text;
     size_t size;
 
@@ -264,7 +258,7 @@ fap_err recipe_make(fap_bank_builder **out, const char *path, recipe_outcome *ou
     fap_err err = file_read(path, MAX_RECIPE, &text, &size);
     if (err)
         return err;
-    err = recipe_parse(out, (char *)text, &files, outcome);
+    err = recipe_parse(out, (char *)text, &files, watch, outcome);
     free(text);
     if (outcome->line)
         snprintf(bad, bad_size, "%s:%d", path, outcome->line);

@@ -134,8 +134,36 @@ static void working(const recipe *r, const char *name)
     char text[128];
 
     snprintf(text, sizeof text, "laying the face onto the scan %d, %s", r->outcome->scan_count + 1, name);
-    if (r->files->working)
-        r->files->working(r->files->user, text);
+    if (r->watch->working)
+        r->watch->working(r->watch->user, text);
+}
+
+/* @head: NULL: as the fit at rest says. */
+static fap_err show(const recipe *r, const char *name, const fap_surface *scan, const double (*head)[4],
+                    const float (*motion)[3])
+{
+    const recipe_person *p = &r->person;
+    const uint32_t n = fap_bank_mesh(p->like)->vertex_count;
+
+    if (!r->watch->laid)
+        return FAP_OK;
+    float(*in_head)[3] = malloc(scan->vertex_count * sizeof *in_head), (*face)[3] = malloc(n * sizeof *face);
+    for (uint32_t i = 0; in_head && i < scan->vertex_count; i++) {
+        fap_registration_to_head(p->rest, scan->position[i], in_head[i]);
+        for (int a = 0; head && a < 3; a++)
+            in_head[i][a] = (float)(head[a][0] * (double)scan->position[i][0] +
+                                    head[a][1] * (double)scan->position[i][1] +
+                                    head[a][2] * (double)scan->position[i][2] + head[a][3]);
+    }
+    for (uint32_t i = 0; face && i < 3 * n; i++)
+        face[i / 3][i % 3] =
+            fap_registration_positions(p->rest)[i / 3][i % 3] + (motion ? motion[i / 3][i % 3] : 0);
+    const recipe_laid laid = { name, r->outcome->scan_count,     p->like,
+                               scan, (const float(*)[3])in_head, (const float(*)[3])face };
+    const fap_err err = in_head && face ? r->watch->laid(r->watch->user, &laid) : FAP_E_NOMEM;
+    free(in_head);
+    free(face);
+    return err;
 }
 
 static recipe_scan *note_scan(const recipe *r, const char *name)
@@ -199,6 +227,8 @@ fap_err recipe_take_scan(recipe *r, const char *rest)
     s.landmarks = NULL;
     if (err == FAP_OK)
         err = open_person(r);
+    if (err == FAP_OK)
+        err = show(r, "at rest", s.surface, NULL, NULL);
     close_scan(&s);
     return err;
 }
@@ -221,8 +251,12 @@ fap_err recipe_scan_motion(recipe *r, fap_key_kind kind, const char *name, const
     const fap_person person = { r->person.like, r->person.rest, r->person.landmarks };
     err = note ? fap_expression_lay(delta, &person, s.surface, s.landmarks, &cfg, &note->report, where)
                : FAP_E_LIMIT;
+    if (err != FAP_OK)
+        blame(r, name, err, where);
+    else
+        err = show(r, name, s.surface, (const double(*)[4])note->report.head, (const float(*)[3])delta);
     close_scan(&s);
-    return err == FAP_OK ? err : blame(r, name, err, where);
+    return err;
 }
 
 void recipe_person_close(recipe_person *p)

@@ -24,6 +24,7 @@ typedef struct recipe_person {
 
 typedef struct recipe {
     const recipe_files *files;
+    const recipe_watch *watch;
     recipe_outcome *outcome;
     char name[64];
     float scale, neck_y[2]; /* heights where the head weight is 0 and 1 */

@@ -260,7 +260,7 @@ static fap_err run_stages(autofit *f)
     return err;
 }
 
-/* The stages are for faces of ten thousand vertices. */
+/* The stages are for faces of ten thousand vertices; a squared Laplacian goes with the fourth power of the edges. */
 static const double usual_edge_mm = 2;
 
 static double mean_edge(const laying *l)
@@ -286,7 +286,7 @@ static fap_err open(autofit *f)
     const fap_generic *g = l->generic;
     const fap_allocator *a = l->alloc;
 
-    f->ease = fmin(1, pow(usual_edge_mm / mean_edge(l), 2));
+    f->ease = fmin(1, pow(usual_edge_mm / mean_edge(l), 4));
     f->use = fap_mem_calloc(a, g->vertex_count, 1);
     f->pull = fap_mem_calloc(a, g->vertex_count, sizeof *f->pull);
     f->pin = fap_mem_calloc(a, l->pin_count, sizeof *f->pin);

@@ -188,8 +188,22 @@ static void undo(const rigid_pose *pose, float at[3])
         at[a] = (float)model[a];
 }
 
+static void report_head(work *w, const rigid_pose *pose)
+{
+    const double mm = fap_registration_report_get(w->who->rest)->mm_per_unit;
+
+    for (int a = 0; a < 3; a++) {
+        w->report->head[a][3] = 0;
+        for (int b = 0; b < 3; b++) {
+            w->report->head[a][b] = mm * pose->r[b][a];
+            w->report->head[a][3] -= pose->r[b][a] * pose->t[b];
+        }
+    }
+}
+
 static void turn_scan(work *w, const rigid_pose *pose)
 {
+    report_head(w, pose);
     for (uint32_t i = 0; i < w->scan->vertex_count; i++)
         undo(pose, w->scan->position[i]);
     for (uint32_t i = 0; i < w->pin_count; i++)

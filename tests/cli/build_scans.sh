@@ -56,3 +56,14 @@ bad "scan ict_a_neutral.ply two.csv"
 says 'bad.recipe:3: .*three'
 bad "like builtin"
 says 'bad.recipe:3'
+
+# A picture of each scan with the face on it.
+status=0
+"$B/fapbank" build "$T/anna.recipe" -o "$T/anna3.fbank" --pictures "$T/pictures" >"$T/out" 2>"$T/err" || status=$?
+[ "$status" -eq 3 ] && skip "no OpenGL here: $(tail -n 1 "$T/err")"
+[ "$status" -eq 0 ] || fail "build with pictures gives $status: $(cat "$T/err")"
+cmp "$T/anna.fbank" "$T/anna3.fbank" || fail "pictures change the bank"
+for name in 01-at_rest 02-joy 03-aa; do
+    [ "$(head -c 4 "$T/pictures/$name.png" | tail -c 3)" = PNG ] || fail "no picture $name"
+done
+expect 2 "$B/fapbank" info builtin --pictures "$T/pictures"

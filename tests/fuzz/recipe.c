@@ -85,7 +85,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size)
         memcpy(text, data, size);
     text[size] = '\0';
-    const fap_err err = recipe_parse(&builder, text, &files, &outcome);
+    const fap_err err = recipe_parse(&builder, text, &files, &(recipe_watch){ 0 }, &outcome);
     check((err == FAP_OK) == (builder != NULL) && (err != FAP_OK || !outcome.line));
     if (builder)
         write_and_load(builder);

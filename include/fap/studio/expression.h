@@ -42,9 +42,10 @@ typedef struct fap_expression_report {
     uint32_t anchored;           /**< landmarks that the scan at rest has too */
     uint32_t icp_rounds;
     double icp_before_mm,
-        icp_after_mm; /**< rms of what ICP believed, before its first and after its last round */
-    uint32_t masked;  /**< vertices under the stencil mask */
-    double moves_mm;  /**< farthest any vertex goes */
+        icp_after_mm;  /**< rms of what ICP believed, before its first and after its last round */
+    uint32_t masked;   /**< vertices under the stencil mask */
+    double head[3][4]; /**< the scan in head axes and millimetres: head * (x, y, z, 1) */
+    double moves_mm;   /**< farthest any vertex goes */
 } fap_expression_report;
 
 /** A person at rest: what every expression starts from. All borrowed. */
