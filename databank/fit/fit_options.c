@@ -30,9 +30,16 @@ static const char help[] =
     "      --bank B.fbank    the generic face (the default face, else the built-in one; \"builtin\")\n"
     "      --method M        auto: landmarks, then the skin drawn to the scan from coarse to fine\n"
     "                        zhu: landmarks met exactly, then rays to the scan, as the thesis has it\n"
+    "                        lorenzo: planar bones between control points, moved until distance, strain "
+    "and bending\n"
+    "                        cost least\n"
+    "      --optimizer O     lorenzo: lbfgs (all control points at once, by gradients) or simplex (one after "
+    "the other, by\n"
+    "                        values alone; slow)\n"
+    "      --control N       lorenzo: this many control points (400)\n"
     "      --subdivide N     zhu: Loop's scheme, 0 to 3 times (0); for -o FACE.obj or .ply\n"
-    "      --project WAY     zhu: cylinder (away from the head's axis) or normal\n"
-    "      --limit MM        zhu: how far a ray may go (15)\n"
+    "      --project WAY     zhu, lorenzo: cylinder (away from the head's axis) or normal\n"
+    "      --limit MM        zhu, lorenzo: how far a ray may go (15)\n"
     "      --unit U          of the scan: mm, cm, m or millimetres in one unit (the one that makes it a "
     "head)\n"
     "      --pin-error MM    how far off a landmark may be (1)\n"
@@ -53,6 +60,8 @@ enum {
     OPT_LANDMARKS = 256,
     OPT_BANK,
     OPT_METHOD,
+    OPT_OPTIMIZER,
+    OPT_CONTROL,
     OPT_SUBDIVIDE,
     OPT_PROJECT,
     OPT_LIMIT,
@@ -71,6 +80,8 @@ static const struct option long_options[] = {
     { "output", required_argument, NULL, 'o' },
     { "bank", required_argument, NULL, OPT_BANK },
     { "method", required_argument, NULL, OPT_METHOD },
+    { "optimizer", required_argument, NULL, OPT_OPTIMIZER },
+    { "control", required_argument, NULL, OPT_CONTROL },
     { "subdivide", required_argument, NULL, OPT_SUBDIVIDE },
     { "project", required_argument, NULL, OPT_PROJECT },
     { "limit", required_argument, NULL, OPT_LIMIT },
@@ -109,8 +120,29 @@ static int parse_method(fit_options *opt, const char *text)
             opt->fit.method = (fap_registration_method)m;
             return 1;
         }
-    tool_error("--method %s: expected auto or zhu", text);
+    tool_error("--method %s: expected auto, zhu or lorenzo", text);
     return usage(opt);
+}
+
+static int parse_optimizer(fit_options *opt, const char *text)
+{
+    for (int o = 0; fap_optimizer_name(o); o++)
+        if (!strcmp(text, fap_optimizer_name(o))) {
+            opt->fit.optimizer = (fap_optimizer)o;
+            return 1;
+        }
+    tool_error("--optimizer %s: expected lbfgs or simplex", text);
+    return usage(opt);
+}
+
+static int parse_control(fit_options *opt, const char *text)
+{
+    double points;
+
+    if (!number(opt, "control", text, FAP_CONTROL_POINTS_MIN, FAP_CONTROL_POINTS_MAX, &points))
+        return 0;
+    opt->fit.control_points = (int)points;
+    return 1;
 }
 
 static int parse_project(fit_options *opt, const char *text)
@@ -154,6 +186,8 @@ static int parse_option(fit_options *opt, int c, const char *arg)
     case OPT_LANDMARKS: opt->landmarks = arg; return 1;
     case OPT_BANK: opt->bank = arg; return 1;
     case OPT_METHOD: return parse_method(opt, arg);
+    case OPT_OPTIMIZER: return parse_optimizer(opt, arg);
+    case OPT_CONTROL: return parse_control(opt, arg);
     case OPT_SUBDIVIDE: return parse_subdivide(opt, arg);
     case OPT_PROJECT: return parse_project(opt, arg);
     case OPT_LIMIT: return number(opt, "limit", arg, 0.1, 100, &opt->fit.limit_mm);

@@ -58,5 +58,6 @@ fap_err laying_fail(const laying *l, fap_err err, const char *text);
 /* The methods: l->at, from where the generic face is. */
 fap_err laying_auto(laying *l);
 fap_err laying_zhu(laying *l);
+fap_err laying_lorenzo(laying *l);
 
 #endif

@@ -27,17 +27,23 @@ static const double far_off = 6, heads_differ_mm = 2.5;
 
 enum { ALIGN_ROUNDS = 8, NORMAL_ROUNDS = 3 };
 
-static const char *const names[FAP_REGISTER_COUNT] = { "auto", "zhu" };
+static const char *const names[FAP_REGISTER_COUNT] = { "auto", "zhu", "lorenzo" };
+static const char *const optimizers[FAP_OPTIMIZER_COUNT] = { "lbfgs", "simplex" };
 
 const char *fap_registration_name(int method)
 {
     return method >= 0 && method < FAP_REGISTER_COUNT ? names[method] : NULL;
 }
 
+const char *fap_optimizer_name(int optimizer)
+{
+    return optimizer >= 0 && optimizer < FAP_OPTIMIZER_COUNT ? optimizers[optimizer] : NULL;
+}
+
 void fap_registration_config_init(fap_registration_config *cfg)
 {
     *cfg = (fap_registration_config){
-        .struct_size = sizeof *cfg, .pin_error_mm = 1, .reach_mm = 12, .limit_mm = 15
+        .struct_size = sizeof *cfg, .pin_error_mm = 1, .reach_mm = 12, .limit_mm = 15, .control_points = 400
     };
 }
 
@@ -441,6 +447,7 @@ static fap_err run(laying *l)
     switch (l->cfg->method) {
     case FAP_REGISTER_AUTO: return laying_auto(l);
     case FAP_REGISTER_ZHU: return laying_zhu(l);
+    case FAP_REGISTER_LORENZO: return laying_lorenzo(l);
     default: return laying_fail(l, FAP_E_ARG, "no such method");
     }
 }

@@ -270,6 +270,9 @@ TEST(registration, methods_have_names)
 {
     assert_string_equal(fap_registration_name(FAP_REGISTER_AUTO), "auto");
     assert_string_equal(fap_registration_name(FAP_REGISTER_ZHU), "zhu");
+    assert_string_equal(fap_registration_name(FAP_REGISTER_LORENZO), "lorenzo");
+    assert_string_equal(fap_optimizer_name(FAP_OPTIMIZER_SIMPLEX), "simplex");
+    assert_null(fap_optimizer_name(FAP_OPTIMIZER_COUNT));
     assert_null(fap_registration_name(FAP_REGISTER_COUNT));
     assert_null(fap_registration_name(-1));
 }
@@ -313,5 +316,73 @@ TEST(registration, zhu_makes_a_finer_face)
     assert_true(s->vertex_count > 8 * m.generic.vertex_count);
     assert_true(fap_registration_report_get(r)->surface_rms_mm < 2);
     fap_registration_close(&r);
+    close_model(&m);
+}
+
+TEST(registration, lorenzo_lays_the_face_by_either_optimizer)
+{
+    for (int o = 0; o < FAP_OPTIMIZER_COUNT; o++) {
+        model m;
+        fap_registration_config cfg;
+
+        open_model(&m);
+        const uint32_t pins = click(&m);
+        fap_registration_config_init(&cfg);
+        cfg.method = FAP_REGISTER_LORENZO;
+        cfg.optimizer = (fap_optimizer)o;
+        cfg.control_points = 100;
+        fap_registration *r = lay(&m, pins, &cfg);
+        const fap_registration_report *rep = fap_registration_report_get(r);
+        assert_true(rep->surface_rms_mm < 0.6);
+        assert_true(rms_off(&m, r) < 2.5);
+        fap_registration_close(&r);
+        close_model(&m);
+    }
+}
+
+/* Every third triangle is not there, and a patch of the cheek. */
+TEST(registration, lorenzo_spans_holes)
+{
+    model m;
+    fap_registration_config cfg;
+    uint32_t kept = 0;
+
+    open_model(&m);
+    const uint32_t pins = click(&m);
+    for (uint32_t t = 0; t < m.scan->triangle_count; t++) {
+        const float *at = m.truth[m.scan->triangle[t][0]];
+        const int cheek = fabsf(at[0] - 40) < 15 && fabsf(at[1] + 20) < 15;
+        if (t % 3 && !cheek)
+            memmove(m.scan->triangle[kept++], m.scan->triangle[t], sizeof *m.scan->triangle);
+    }
+    m.scan->triangle_count = kept;
+    fap_registration_config_init(&cfg);
+    cfg.method = FAP_REGISTER_LORENZO;
+    fap_registration *r = lay(&m, pins, &cfg);
+    assert_true(rms_off(&m, r) < 3);
+    fap_registration_close(&r);
+    close_model(&m);
+}
+
+TEST(registration, lorenzo_refuses_what_it_cannot_take_and_may_be_ended)
+{
+    model m;
+    fap_registration *r;
+    fap_registration_config cfg;
+    surface_index *index;
+
+    if (surface_index_open(&index, NULL, 0, NULL, 0) == FAP_E_UNSUPPORTED)
+        skip();
+    surface_index_close(&index);
+    open_model(&m);
+    const uint32_t pins = click(&m);
+    fap_registration_config_init(&cfg);
+    cfg.method = FAP_REGISTER_LORENZO;
+    cfg.control_points = FAP_CONTROL_POINTS_MAX + 1;
+    assert_int_equal(fap_register(&r, &m.generic, m.scan, m.pin, pins, &cfg, where), FAP_E_ARG);
+    cfg.control_points = 100;
+    cfg.progress = stop_at_half;
+    assert_int_equal(fap_register(&r, &m.generic, m.scan, m.pin, pins, &cfg, where), FAP_E_END);
+    assert_null(r);
     close_model(&m);
 }

@@ -31,12 +31,24 @@ typedef struct fap_pin {
 } fap_pin;
 
 typedef enum fap_registration_method {
-    FAP_REGISTER_AUTO, /**< the joined method; the default */
-    FAP_REGISTER_ZHU,  /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
+    FAP_REGISTER_AUTO,    /**< the joined method; the default */
+    FAP_REGISTER_ZHU,     /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
+    FAP_REGISTER_LORENZO, /**< planar bones moved until distance, strain and bending cost least */
     FAP_REGISTER_COUNT
 } fap_registration_method;
-/** "auto", "zhu"; NULL for another number. Static. */
+/** "auto", "zhu", "lorenzo"; NULL for another number. Static. */
 FAP_API const char *fap_registration_name(int method);
+
+/** How the lorenzo method goes down. */
+typedef enum fap_optimizer {
+    FAP_OPTIMIZER_LBFGS,   /**< all control points at once, by gradients; the default */
+    FAP_OPTIMIZER_SIMPLEX, /**< one control point after the other, by values alone: the downhill simplex */
+    FAP_OPTIMIZER_COUNT
+} fap_optimizer;
+/** "lbfgs", "simplex"; NULL for another number. Static. */
+FAP_API const char *fap_optimizer_name(int optimizer);
+
+enum { FAP_CONTROL_POINTS_MIN = 12, FAP_CONTROL_POINTS_MAX = 4000 };
 
 /** Start from fap_registration_config_init(). */
 typedef struct fap_registration_config {
@@ -48,8 +60,10 @@ typedef struct fap_registration_config {
     double pin_error_mm; /**< how far off a landmark with trust 1 may be, standard deviation; 1 */
     double reach_mm;     /**< skin farther than this from the laid face belongs to something else; 12 */
     int subdivisions; /**< zhu: steps of Loop's scheme, 0 to 3; 0. fap_registration_surface() has the finer face */
-    int along_normals; /**< zhu: rays go along normals, not away from the head's axis; 0 */
-    double limit_mm;   /**< zhu: a ray that meets nothing before is given up; 15 */
+    int along_normals;       /**< zhu, lorenzo: rays go along normals, not away from the head's axis; 0 */
+    double limit_mm;         /**< zhu, lorenzo: a ray that meets nothing before is given up; 15 */
+    fap_optimizer optimizer; /**< lorenzo; ::FAP_OPTIMIZER_LBFGS */
+    int control_points; /**< lorenzo: of the net of bones, ::FAP_CONTROL_POINTS_MIN to ::FAP_CONTROL_POINTS_MAX; 400 */
     int (*progress)(void *user,
                     double done); /**< 0 to 1; non-zero ends the work with FAP_E_END. NULL: none */
     void *user;
