@@ -61,7 +61,7 @@ RENDER_SRC := $(call notest,$(wildcard player/render/*.c))
 ENC_SRC  := $(call notest,$(wildcard encoder/*.c encoder/*/*.c))
 PLAY_SRC := $(filter-out player/render/%,$(call notest,$(wildcard player/*.c player/*/*.c)))
 BANK_SRC := $(call notest,$(wildcard databank/*.c databank/*/*.c))
-TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c encoder/*/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c \
+TEST_SRC := $(wildcard tests/*.c lib/*/*_test.c common/*_test.c common/*/*_test.c encoder/*_test.c encoder/*/*_test.c player/*_test.c player/*/*_test.c databank/*_test.c databank/*/*_test.c \
                        tests/track/*_test.c)
 # Films of a face between mirrors, with the truth: for the unit tests, the figures and two programs.
 FILM_SRC := $(filter-out tests/track/main_%,$(call notest,$(wildcard tests/track/*.c)))
@@ -83,7 +83,7 @@ LIBS     := $(B)/libfap.a $(B)/libfap-studio.a $(B)/libfap.so.$(VERSION)
 # Headers of libraries are not ours to warn about, and one driver file each includes them.
 system_cflags = $(patsubst -I%,-isystem %,$(shell $(PKG) --cflags $(1)))
 $(B)/player/audio/device_sdl.o: FAP_CFLAGS += $(if $(SDL2),$(call system_cflags,sdl2))
-$(B)/encoder/plot/canvas_cairo.o: FAP_CFLAGS += $(if $(CAIRO),$(call system_cflags,cairo))
+$(B)/common/canvas/canvas_cairo.o: FAP_CFLAGS += $(if $(CAIRO),$(call system_cflags,cairo))
 $(B)/player/window/panel_imgui.o: FAP_CXXFLAGS += $(if $(IMGUI),$(call system_cflags,imgui))
 
 COMPILE   = mkdir -p $(@D) && $(CC) $(FAP_CFLAGS) $(DEFS) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<

@@ -3,7 +3,7 @@
 #ifndef ENCODER_PLOT_CURVES_H
 #define ENCODER_PLOT_CURVES_H
 
-#include "encoder/plot/canvas.h"
+#include "common/canvas/canvas.h"
 #include "encoder/plot/plot.h"
 
 /* Pixels that the panels need, and the panels from @y on. There is a frame at least. */

@@ -3,7 +3,7 @@
 #ifndef ENCODER_PLOT_MAP_H
 #define ENCODER_PLOT_MAP_H
 
-#include "encoder/plot/canvas.h"
+#include "common/canvas/canvas.h"
 #include "encoder/plot/plot.h"
 
 enum { MAP_HEIGHT_PX = 640 };

@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "common/file.h"
-#include "encoder/plot/canvas.h"
+#include "common/canvas/canvas.h"
 #include "encoder/plot/curves.h"
 #include "encoder/plot/map.h"
 #include "encoder/plot/plot.h"

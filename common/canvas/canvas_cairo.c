@@ -8,7 +8,7 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
-#include "encoder/plot/canvas.h"
+#include "common/canvas/canvas.h"
 
 struct canvas {
     cairo_surface_t *surface;

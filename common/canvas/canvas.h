@@ -3,8 +3,8 @@
  * Lines, letters and pictures on a sheet that becomes a PNG or an SVG. Lengths are pixels of the PNG, y grows downwards. Drawing
  * never fails: what went wrong is told by canvas_save().
  */
-#ifndef ENCODER_PLOT_CANVAS_H
-#define ENCODER_PLOT_CANVAS_H
+#ifndef COMMON_CANVAS_CANVAS_H
+#define COMMON_CANVAS_CANVAS_H
 
 #include <stdint.h>
 

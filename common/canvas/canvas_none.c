@@ -3,7 +3,7 @@
 #ifndef HAVE_CAIRO
 #include <stdio.h>
 
-#include "encoder/plot/canvas.h"
+#include "common/canvas/canvas.h"
 
 int canvas_available(void)
 {

@@ -1,11 +1,5 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-/*
- * See pick_window.h. The sheet is drawn by cairo and put into the window whole, pixel by pixel, by the oldest calls that OpenGL has: a
- * picture of this size is nothing to any of its implementations.
- */
-#if defined HAVE_GLFW && defined HAVE_CAIRO
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
+/* See pick_window.h: the picture, a lens, what is asked for. The window itself is common/canvas/window.h's. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,34 +7,20 @@
 
 #include <fap/tables.h>
 
+#include "common/canvas/window.h"
 #include "common/tool.h"
-#include "encoder/plot/canvas.h"
 #include "encoder/track/pick_window.h"
 
 enum { HEAD = 58, LENS_PX = 25, LENS_ZOOM = 8, LENS = LENS_PX * LENS_ZOOM };
-enum { GL_BGRA_8 = 0x80E1, GL_BYTES = 0x1401, GL_ALIGNMENT = 0x0CF5 };
-
-/* OpenGL 1.1 */
-typedef struct gl {
-    void (*Viewport)(int x, int y, int width, int height);
-    void (*RasterPos2f)(float x, float y);
-    void (*PixelZoom)(float x, float y);
-    void (*PixelStorei)(unsigned what, int value);
-    void (*DrawPixels)(int width, int height, unsigned format, unsigned type, const void *data);
-} gl;
 
 typedef struct picking {
     pick *p;
     const fap_picture *picture;
-    fault *f;
-    GLFWwindow *window;
-    gl gl;
-    canvas *sheet;
+    canvas *sheet;  /* while it is drawn */
     uint8_t *shown; /* RGBA, the picture at the window's scale */
     double scale;
     int width, height; /* of the picture as shown */
     double mouse[2];   /* on the sheet */
-    int changed;
 } picking;
 
 /* --- the picture --- */
@@ -143,100 +123,45 @@ static void draw_lens(const picking *w)
     canvas_line(w->sheet, x, y + LENS / 2.0, x + LENS, y + LENS / 2.0, 1);
 }
 
-static void draw(picking *w)
+static void draw(void *user, canvas *sheet, const double mouse[2])
 {
-    int pixels_wide, pixels_high, window_wide;
+    picking *w = user;
 
-    canvas_picture(w->sheet, 0, HEAD, w->shown, w->width, w->height);
+    w->sheet = sheet;
+    memcpy(w->mouse, mouse, sizeof w->mouse);
+    canvas_picture(sheet, 0, HEAD, w->shown, w->width, w->height);
     draw_dots(w);
     draw_lens(w);
     draw_head(w);
-    glfwGetFramebufferSize(w->window, &pixels_wide, &pixels_high);
-    glfwGetWindowSize(w->window, &window_wide, &(int){ 0 });
-    const float zoom = window_wide > 0 ? (float)pixels_wide / (float)window_wide : 1;
-    w->gl.Viewport(0, 0, pixels_wide, pixels_high);
-    w->gl.RasterPos2f(-1, 1);
-    w->gl.PixelZoom(zoom, -zoom); /* rows from the top */
-    w->gl.PixelStorei(GL_ALIGNMENT, 4);
-    w->gl.DrawPixels(w->width, w->height + HEAD, GL_BGRA_8, GL_BYTES, canvas_pixels(w->sheet));
-    glfwSwapBuffers(w->window);
-    w->changed = 0;
 }
 
 /* --- hands --- */
 
-static void on_mouse(GLFWwindow *window, double x, double y)
+static void click(void *user, const double mouse[2])
 {
-    picking *w = glfwGetWindowUserPointer(window);
-
-    w->mouse[0] = x;
-    w->mouse[1] = y;
-    w->changed = 1;
-}
-
-static void on_button(GLFWwindow *window, int button, int action, int mods)
-{
-    picking *w = glfwGetWindowUserPointer(window);
+    picking *w = user;
     double at[2];
 
-    (void)mods;
-    if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS || w->mouse[1] < HEAD)
+    if (mouse[1] < HEAD)
         return;
-    to_picture(w, w->mouse, at);
+    to_picture(w, mouse, at);
     pick_click(w->p, fmax(at[0], 0), fmax(at[1], 0));
-    w->changed = 1;
 }
 
-static void on_key(GLFWwindow *window, int key, int scancode, int action, int mods)
+static int press(void *user, int key)
 {
-    picking *w = glfwGetWindowUserPointer(window);
+    picking *w = user;
 
-    (void)scancode;
-    (void)mods;
-    if (action == GLFW_RELEASE)
-        return;
-    w->changed = 1;
     switch (key) {
-    case GLFW_KEY_SPACE: pick_skip(w->p); break;
-    case GLFW_KEY_BACKSPACE: pick_back(w->p); break;
-    case GLFW_KEY_0:
-    case GLFW_KEY_1:
-    case GLFW_KEY_2: pick_go_to_view(w->p, key - GLFW_KEY_0); break;
-    case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER:
-        w->p->finished = 1;
-        glfwSetWindowShouldClose(window, 1);
-        break;
-    case GLFW_KEY_ESCAPE:
-        w->p->finished = 0;
-        glfwSetWindowShouldClose(window, 1);
-        break;
-    default: break;
+    case CANVAS_KEY_SPACE: pick_skip(w->p); return 0;
+    case CANVAS_KEY_BACK: pick_back(w->p); return 0;
+    case '0':
+    case '1':
+    case '2': pick_go_to_view(w->p, key - '0'); return 0;
+    case CANVAS_KEY_ENTER: w->p->finished = 1; return 1;
+    case CANVAS_KEY_ESCAPE: w->p->finished = 0; return 1;
+    default: return 0;
     }
-}
-
-static void on_damage(GLFWwindow *window)
-{
-    picking *w = glfwGetWindowUserPointer(window);
-    w->changed = 1;
-}
-
-/* --- the window --- */
-
-/* Loads one call; a function pointer is no data pointer to ISO C, though it is to POSIX. */
-static int load(void *to, const char *name)
-{
-    const GLFWglproc call = glfwGetProcAddress(name);
-
-    memcpy(to, &call, sizeof call);
-    return call != NULL;
-}
-
-static int load_gl(gl *g)
-{
-    return load(&g->Viewport, "glViewport") && load(&g->RasterPos2f, "glRasterPos2f") &&
-           load(&g->PixelZoom, "glPixelZoom") && load(&g->PixelStorei, "glPixelStorei") &&
-           load(&g->DrawPixels, "glDrawPixels");
 }
 
 /* As large as a usual screen shows, small pictures twice as large. */
@@ -249,62 +174,20 @@ static void choose_size(picking *w)
     w->height = (int)fmax(1, floor(w->picture->height_px * w->scale));
 }
 
-static int no_display(picking *w)
-{
-    const char *why = NULL;
-
-    glfwGetError(&why);
-    return fault_set(w->f, EXIT_MISSING, "no window: %s; write where the dots are into a table for --init",
-                     why ? why : "no display");
-}
-
-static int open_window(picking *w)
-{
-    char where[FAP_ERROR_TEXT_SIZE];
-
-    choose_size(w);
-    w->shown = malloc(4 * (size_t)w->width * (size_t)w->height);
-    if (!w->shown || canvas_open(&w->sheet, CANVAS_PNG, w->width, w->height + HEAD, where) != FAP_OK)
-        return fault_set(w->f, EXIT_DATA, "out of memory");
-    scale_picture(w->picture, 0, 0, w->scale, w->width, w->height, w->shown);
-    if (!glfwInit())
-        return no_display(w);
-    glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
-    w->window = glfwCreateWindow(w->width, w->height + HEAD, "where the dots are - fapenc track", NULL, NULL);
-    if (!w->window)
-        return no_display(w);
-    glfwMakeContextCurrent(w->window);
-    if (!load_gl(&w->gl))
-        return fault_set(w->f, EXIT_MISSING, "no window: this OpenGL has no glDrawPixels");
-    glfwSetWindowUserPointer(w->window, w);
-    glfwSetCursorPosCallback(w->window, on_mouse);
-    glfwSetMouseButtonCallback(w->window, on_button);
-    glfwSetKeyCallback(w->window, on_key);
-    glfwSetWindowRefreshCallback(w->window, on_damage);
-    return 1;
-}
-
-static void close_window(picking *w)
-{
-    if (w->window)
-        glfwDestroyWindow(w->window);
-    glfwTerminate();
-    canvas_close(&w->sheet);
-    free(w->shown);
-}
-
 int pick_window_run(pick *p, const fap_picture *picture, fault *f)
 {
-    picking w = { .p = p, .picture = picture, .f = f, .changed = 1 };
+    picking w = { .p = p, .picture = picture };
 
-    const int opened = open_window(&w);
-    while (opened && !glfwWindowShouldClose(w.window)) {
-        if (w.changed)
-            draw(&w);
-        glfwWaitEventsTimeout(0.5);
-    }
-    close_window(&w);
+    choose_size(&w);
+    w.shown = malloc(4 * (size_t)w.width * (size_t)w.height);
+    if (!w.shown)
+        return fault_set(f, EXIT_DATA, "out of memory");
+    scale_picture(picture, 0, 0, w.scale, w.width, w.height, w.shown);
+    const canvas_window window = {
+        "where the dots are - fapenc track", w.width, w.height + HEAD, draw, click, press, &w
+    };
+    const int opened = canvas_window_run(&window, "write where the dots are into a table for --init", f);
+    free(w.shown);
     return opened && (p->finished ||
                       fault_set(f, EXIT_DATA, "the window was closed before Return: nothing was written"));
 }
-#endif
