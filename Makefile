@@ -135,7 +135,7 @@ $(B)/fapplay: $(B)/player/main.o $(B)/libfap-play.a $(B)/libfap-render.a $(BASE)
 $(B)/libfap-databank.a: $(call obj,$(filter-out databank/main.c,$(BANK_SRC)))
 $(B)/fapbank: $(B)/databank/main.o $(B)/libfap-databank.a $(B)/libfap-render.a $(BASE)
 	$(call SAY,LD)
-	$(Q)$(LINK) $(RENDER_LIBS) $(SHAPE_LIBS) -lm
+	$(Q)$(LINK) $(PLOT_LIBS) $(SHAPE_LIBS) -lm
 
 # A program of its own, under espeak-ng's licence (phonemes/README.md): nothing else links that library.
 $(B)/fap-phonemes: $(B)/phonemes/fap_phonemes.o $(BASE)

@@ -5,6 +5,7 @@
 #include "common/tool.h"
 #include "databank/fit/fit.h"
 #include "databank/options.h"
+#include "databank/pick/pick_run.h"
 #include "databank/report.h"
 #include "databank/retarget/retarget.h"
 #include "databank/run.h"
@@ -17,6 +18,8 @@ int main(int argc, char **argv)
     tool_name = "fapbank";
     if (argc > 1 && !strcmp(argv[1], "fit"))
         return fit_run(argc - 1, argv + 1);
+    if (argc > 1 && !strcmp(argv[1], "pick"))
+        return pick_run(argc - 1, argv + 1);
     if (argc > 1 && !strcmp(argv[1], "retarget"))
         return retarget_run(argc - 1, argv + 1);
     if (!options_parse(&opt, argc, argv))

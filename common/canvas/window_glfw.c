@@ -80,6 +80,8 @@ static int key_of(int key)
     case GLFW_KEY_ENTER:
     case GLFW_KEY_KP_ENTER: return CANVAS_KEY_ENTER;
     case GLFW_KEY_ESCAPE: return CANVAS_KEY_ESCAPE;
+    case GLFW_KEY_KP_ADD: return '=';
+    case GLFW_KEY_KP_SUBTRACT: return '-';
     case GLFW_KEY_LEFT: return CANVAS_KEY_LEFT;
     case GLFW_KEY_RIGHT: return CANVAS_KEY_RIGHT;
     case GLFW_KEY_UP: return CANVAS_KEY_UP;

@@ -6,70 +6,59 @@
 #include <strings.h>
 #include <time.h>
 
-#include "common/bank_file.h"
 #include "common/file.h"
 #include "common/tool.h"
 #include "databank/fit/fit.h"
 #include "databank/fit/fit_pictures.h"
 #include "databank/fit/fit_report.h"
-
-static const size_t most_scan = (size_t)4 << 30, most_landmarks = (size_t)1 << 22;
+#include "databank/inputs.h"
 
 /* --- what is given --- */
 
-static int blame(fault *f, const char *path, fap_err err, const char *where)
-{
-    return fault_set(f, err == FAP_E_UNSUPPORTED ? EXIT_MISSING : tool_exit_code(err), "%s: %s", path,
-                     *where                     ? where
-                     : err == FAP_E_IO && errno ? strerror(errno)
-                                                : fap_strerror(err));
-}
-
 static int read_bank(fit_work *w, fault *f)
 {
-    char found[BANK_PATH_SIZE], where[FAP_ERROR_TEXT_SIZE] = "";
-    const char *path = w->opt->bank;
-
-    if (!path && bank_file_default(found))
-        path = found;
-    const fap_err err = !path || !strcmp(path, "builtin") ? fap_bank_builtin(&w->bank, NULL)
-                                                          : bank_file_read(&w->bank, path, where);
-    return err == FAP_OK ? fap_generic_of_bank(&w->generic, w->bank, NULL) == FAP_OK
-                         : blame(f, path ? path : "builtin", err, where);
+    return inputs_bank(&w->bank, w->opt->bank, f) &&
+           fap_generic_of_bank(&w->generic, w->bank, NULL) == FAP_OK;
 }
 
-static int read_scan(fit_work *w, fault *f)
+/* The thesis deforms its generic model by 172 points: the minor ones follow those that are given. */
+static fap_err follow_landmarks(fit_work *w)
 {
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-    uint8_t *data;
-    size_t size;
+    fap_label_place *place = calloc(FAP_LABELS, sizeof *place);
+    fap_labels labels;
+    fap_err err = place ? fap_labels_of_bank(&labels, w->bank) : FAP_E_NOMEM;
 
-    errno = 0;
-    fap_err err = file_read(w->opt->scan, most_scan, &data, &size);
-    if (err == FAP_OK) {
-        err = fap_surface_read(&w->scan, data, size, NULL, where);
-        free(data);
+    for (uint32_t i = 0; err == FAP_OK && i < labels.count; i++)
+        for (uint32_t k = 0; k < w->pin_count; k++)
+            if (w->pin[k].vertex[0] == labels.vertex[i]) {
+                memcpy(place[i].at, w->pin[k].at, sizeof place[i].at);
+                place[i].state = FAP_LABEL_PLACED;
+            }
+    if (err == FAP_OK)
+        err = fap_labels_follow(&labels, w->bank, w->scan, place);
+    for (uint32_t i = 0; err == FAP_OK && i < labels.count; i++) {
+        const uint32_t v = labels.vertex[i];
+        if (place[i].state != FAP_LABEL_MET)
+            continue;
+        fap_pin *pin = &w->pin[w->pin_count++];
+        *pin = (fap_pin){ .vertex = { v, v, v }, .share = { 1, 0, 0 }, .trust = 1 };
+        memcpy(pin->at, place[i].at, sizeof pin->at);
+        w->followed++;
     }
-    if (err == FAP_OK && !w->scan->triangle_count)
-        return fault_set(f, EXIT_DATA, "%s: points without triangles; mesh them first", w->opt->scan);
-    return err == FAP_OK || blame(f, w->opt->scan, err == FAP_E_UNSUPPORTED ? FAP_E_DATA : err, where);
+    free(place);
+    return err == FAP_E_NOT_FOUND ? FAP_OK : err;
 }
 
 static int read_landmarks(fit_work *w, fault *f)
 {
     char where[FAP_ERROR_TEXT_SIZE] = "";
-    uint8_t *data;
-    size_t size;
 
-    errno = 0;
-    fap_err err = file_read(w->opt->landmarks, most_landmarks, &data, &size);
-    if (err == FAP_OK) {
-        err = fap_landmarks_read(&w->landmarks, data, size, w->scan, NULL, where);
-        free(data);
-    }
-    if (err == FAP_OK)
-        err = fap_landmarks_pin(w->landmarks, w->bank, w->pin, &w->pin_count, where);
-    return err == FAP_OK || blame(f, w->opt->landmarks, err, where);
+    if (!inputs_landmarks(&w->landmarks, w->opt->landmarks, w->scan, f))
+        return 0;
+    fap_err err = fap_landmarks_pin(w->landmarks, w->bank, w->pin, &w->pin_count, where);
+    if (err == FAP_OK && w->opt->minor)
+        err = follow_landmarks(w);
+    return err == FAP_OK || inputs_blame(f, w->opt->landmarks, err, where);
 }
 
 /* --- the fit --- */
@@ -102,7 +91,7 @@ static int register_face(fit_work *w, fault *f)
         fap_register(&w->registration, &w->generic, w->scan, w->pin, w->pin_count, &cfg, where);
     w->seconds = now_s() - begin;
     progress_end(&bar);
-    return err == FAP_OK || blame(f, w->opt->scan, err, where);
+    return err == FAP_OK || inputs_blame(f, w->opt->scan, err, where);
 }
 
 static int carry_motions(fit_work *w, fault *f)
@@ -153,7 +142,7 @@ static int write_output(const fit_work *w, fault *f)
         else
             out_file_abandon(&out);
     }
-    return err == FAP_OK || blame(f, w->opt->output, err, "");
+    return err == FAP_OK || inputs_blame(f, w->opt->output, err, "");
 }
 
 /* --- the whole --- */
@@ -176,7 +165,7 @@ int fit_run(int argc, char **argv)
     if (!fit_options_parse(&opt, argc, argv))
         return opt.exit_status;
     fit_work w = { .opt = &opt };
-    const int ok = read_bank(&w, &f) && read_scan(&w, &f) && read_landmarks(&w, &f) &&
+    const int ok = read_bank(&w, &f) && inputs_scan(&w.scan, opt.scan, &f) && read_landmarks(&w, &f) &&
                    register_face(&w, &f) && carry_motions(&w, &f) && write_output(&w, &f) &&
                    (!opt.pictures || fit_pictures_write(&w, &f));
     if (ok)

@@ -3,6 +3,7 @@
 #ifndef DATABANK_FIT_FIT_H
 #define DATABANK_FIT_FIT_H
 
+#include <fap/studio/labels.h>
 #include <fap/studio/landmarks.h>
 #include <fap/studio/retarget.h>
 
@@ -16,8 +17,8 @@ typedef struct fit_work {
     fap_generic generic;
     fap_surface *scan;
     fap_take *landmarks;
-    fap_pin pin[FAP_POINT_COUNT];
-    uint32_t pin_count;
+    fap_pin pin[FAP_POINT_COUNT + FAP_LABELS];
+    uint32_t pin_count, followed; /* followed: of these, minor points that were not given */
     fap_registration *registration;
     fap_bank_builder *face; /* the generic face's motions on the scanned one */
     fap_retarget_scale scale;

@@ -38,6 +38,8 @@ static const char help[] =
     "                        values alone; slow)\n"
     "      --control N       lorenzo: this many control points (400)\n"
     "      --subdivide N     zhu: Loop's scheme, 0 to 3 times (0); for -o FACE.obj or .ply\n"
+    "      --minor YES       zhu: the rest of the generic face's 172 labelled points follow the landmarks\n"
+    "                        (yes), or no\n"
     "      --project WAY     zhu, lorenzo: cylinder (away from the head's axis) or normal\n"
     "      --limit MM        zhu, lorenzo: how far a ray may go (15)\n"
     "      --unit U          of the scan: mm, cm, m or millimetres in one unit (the one that makes it a "
@@ -63,6 +65,7 @@ enum {
     OPT_OPTIMIZER,
     OPT_CONTROL,
     OPT_SUBDIVIDE,
+    OPT_MINOR,
     OPT_PROJECT,
     OPT_LIMIT,
     OPT_UNIT,
@@ -83,6 +86,7 @@ static const struct option long_options[] = {
     { "optimizer", required_argument, NULL, OPT_OPTIMIZER },
     { "control", required_argument, NULL, OPT_CONTROL },
     { "subdivide", required_argument, NULL, OPT_SUBDIVIDE },
+    { "minor", required_argument, NULL, OPT_MINOR },
     { "project", required_argument, NULL, OPT_PROJECT },
     { "limit", required_argument, NULL, OPT_LIMIT },
     { "unit", required_argument, NULL, OPT_UNIT },
@@ -154,6 +158,15 @@ static int parse_project(fit_options *opt, const char *text)
     return usage(opt);
 }
 
+static int parse_minor(fit_options *opt, const char *text)
+{
+    opt->minor = !strcmp(text, "yes");
+    if (opt->minor || !strcmp(text, "no"))
+        return 1;
+    tool_error("--minor %s: expected yes or no", text);
+    return usage(opt);
+}
+
 static int parse_subdivide(fit_options *opt, const char *text)
 {
     double steps;
@@ -189,6 +202,7 @@ static int parse_option(fit_options *opt, int c, const char *arg)
     case OPT_OPTIMIZER: return parse_optimizer(opt, arg);
     case OPT_CONTROL: return parse_control(opt, arg);
     case OPT_SUBDIVIDE: return parse_subdivide(opt, arg);
+    case OPT_MINOR: return parse_minor(opt, arg);
     case OPT_PROJECT: return parse_project(opt, arg);
     case OPT_LIMIT: return number(opt, "limit", arg, 0.1, 100, &opt->fit.limit_mm);
     case OPT_UNIT: return parse_unit(opt, arg);
@@ -223,8 +237,10 @@ static int check(fit_options *opt)
         tool_error("--subdivide belongs to --method zhu");
     else if (opt->fit.subdivisions && !strcasecmp(strrchr(opt->output, '.'), ".fbank"))
         tool_error("--subdivide: a bank's motions are those of the face as it is; write FACE.obj or .ply");
-    else
+    else {
+        opt->minor = opt->minor < 0 ? opt->fit.method == FAP_REGISTER_ZHU : opt->minor;
         return 1;
+    }
     return usage(opt);
 }
 
@@ -232,7 +248,7 @@ int fit_options_parse(fit_options *opt, int argc, char **argv)
 {
     int c;
 
-    *opt = (fit_options){ .exit_status = EXIT_OK };
+    *opt = (fit_options){ .minor = -1, .exit_status = EXIT_OK };
     fap_registration_config_init(&opt->fit);
     while ((c = getopt_long(argc, argv, "o:", long_options, NULL)) != -1)
         if (!parse_option(opt, c, optarg))

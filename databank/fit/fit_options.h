@@ -11,6 +11,7 @@ typedef struct fit_options {
     const char *pictures; /* a folder; NULL: none */
     const char *gl;       /* how they are drawn; NULL: the first way that works */
     fap_registration_config fit;
+    int minor; /* 1: minor points follow the landmarks */
     int json;
     int exit_status; /* when parsing says to stop */
 } fit_options;

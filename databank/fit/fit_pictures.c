@@ -22,7 +22,7 @@ typedef struct pictures {
 
 static int draw_points(const pictures *p)
 {
-    render_mark mark[FAP_POINT_COUNT];
+    render_mark mark[FAP_POINT_COUNT + FAP_LABELS];
 
     for (uint32_t i = 0; i < p->w->pin_count; i++) {
         fap_registration_to_head(p->w->registration, p->w->pin[i].at, mark[i].place_mm);

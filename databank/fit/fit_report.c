@@ -20,8 +20,9 @@ void fit_report_say(const fit_work *w)
                             : "no metric unit makes this a head: it has the generic one's size",
               r->turned_deg, r->scale);
     tool_note("  one unit is %.4g mm", r->mm_per_unit);
-    tool_note("landmarks: %u on the skin, %u contradict the others and are left out; %.2f mm rms",
-              (unsigned)r->pins, (unsigned)r->pins_out, r->pin_rms_mm);
+    tool_note("landmarks: %u on the skin, %u of them followed, %u contradict the others and are left out; "
+              "%.2f mm rms",
+              (unsigned)r->pins, (unsigned)w->followed, (unsigned)r->pins_out, r->pin_rms_mm);
     for (uint32_t i = 0; i < r->note_count; i++)
         tool_note("note: %s", r->note[i]);
     tool_note("%s: %s on %s, %.2f s", w->opt->output, fap_registration_name(w->opt->fit.method),
@@ -51,6 +52,7 @@ void fit_report_json(const fit_work *w)
     json_number(&j, "turned_deg", r->turned_deg);
     json_number(&j, "size", r->scale);
     json_integer(&j, "landmarks", r->pins);
+    json_integer(&j, "landmarks_followed", w->followed);
     json_integer(&j, "landmarks_left_out", r->pins_out);
     json_number(&j, "landmark_rms_mm", r->pin_rms_mm);
     json_number(&j, "surface_rms_mm", r->surface_rms_mm);

@@ -11,15 +11,13 @@
 #include <fap/studio/retarget.h>
 #include <fap/tables.h>
 
-#include "common/bank_file.h"
 #include "common/file.h"
 #include "common/json.h"
 #include "common/tool.h"
+#include "databank/inputs.h"
 #include "databank/retarget/retarget.h"
 #include "databank/retarget/retarget_options.h"
 #include "databank/retarget/shapes.h"
-
-static const size_t most = (size_t)1 << 30, most_landmarks = (size_t)1 << 22;
 
 typedef struct work {
     const retarget_options *opt;
@@ -33,56 +31,30 @@ typedef struct work {
     int keys;
 } work;
 
-static int blame(fault *f, const char *path, fap_err err, const char *where)
-{
-    return fault_set(f, err == FAP_E_UNSUPPORTED ? EXIT_MISSING : tool_exit_code(err), "%s: %s", path,
-                     *where                     ? where
-                     : err == FAP_E_IO && errno ? strerror(errno)
-                                                : fap_strerror(err));
-}
-
 static int read_bank(work *w, fault *f)
 {
-    char where[FAP_ERROR_TEXT_SIZE] = "";
-    const fap_err err = strcmp(w->opt->bank, "builtin") ? bank_file_read(&w->bank, w->opt->bank, where)
-                                                        : fap_bank_builtin(&w->bank, NULL);
-
-    return err == FAP_OK ? fap_generic_of_bank(&w->generic, w->bank, NULL) == FAP_OK
-                         : blame(f, w->opt->bank, err, where);
-}
-
-static int read_file(const char *path, size_t limit, uint8_t **data, size_t *size, fault *f)
-{
-    errno = 0;
-    const fap_err err = file_read(path, limit, data, size);
-    return err == FAP_OK || blame(f, path, err, "");
+    return inputs_bank(&w->bank, w->opt->bank, f) &&
+           fap_generic_of_bank(&w->generic, w->bank, NULL) == FAP_OK;
 }
 
 /* --- the same structure --- */
 
 static int retarget_to(work *w, fault *f)
 {
-    char where[FAP_ERROR_TEXT_SIZE] = "";
     const uint32_t n = fap_bank_mesh(w->bank)->vertex_count;
-    uint8_t *data;
-    size_t size;
 
-    if (!read_file(w->opt->to, most, &data, &size, f))
+    if (!inputs_surface(&w->face, w->opt->to, f))
         return 0;
-    fap_err err = fap_surface_read(&w->face, data, size, NULL, where);
-    free(data);
-    if (err != FAP_OK)
-        return blame(f, w->opt->to, err, where);
     if (w->face->vertex_count != n)
         return fault_set(
             f, EXIT_DATA,
             "%s: %u vertices, the bank's face has %u: not of one structure; fapbank fit gives it that",
             w->opt->to, (unsigned)w->face->vertex_count, (unsigned)n);
     const char *slash = strrchr(w->opt->to, '/');
-    err = fap_bank_retarget(&w->out, w->bank, (const float(*)[3])w->face->position,
-                            slash ? slash + 1 : w->opt->to, &w->scale);
+    const fap_err err = fap_bank_retarget(&w->out, w->bank, (const float(*)[3])w->face->position,
+                                          slash ? slash + 1 : w->opt->to, &w->scale);
     w->keys = fap_bank_key_count(w->bank);
-    return err == FAP_OK || blame(f, w->opt->to, err, "");
+    return err == FAP_OK || inputs_blame(f, w->opt->to, err, "");
 }
 
 /* --- another structure --- */
@@ -94,22 +66,17 @@ static int lay_face(work *w, fault *f)
     fap_pin pin[FAP_POINT_COUNT];
     fap_take *landmarks = NULL;
     uint32_t pins;
-    uint8_t *data;
-    size_t size;
 
-    if (!read_file(w->opt->landmarks, most_landmarks, &data, &size, f))
+    if (!inputs_landmarks(&landmarks, w->opt->landmarks, w->shapes.neutral, f))
         return 0;
-    fap_err err = fap_landmarks_read(&landmarks, data, size, w->shapes.neutral, NULL, where);
-    free(data);
-    if (err == FAP_OK)
-        err = fap_landmarks_pin(landmarks, w->bank, pin, &pins, where);
+    fap_err err = fap_landmarks_pin(landmarks, w->bank, pin, &pins, where);
     fap_take_close(&landmarks);
     if (err != FAP_OK)
-        return blame(f, w->opt->landmarks, err, where);
+        return inputs_blame(f, w->opt->landmarks, err, where);
     fap_registration_config_init(&cfg);
     cfg.mm_per_unit = w->opt->mm_per_unit;
     err = fap_register(&w->laid, &w->generic, w->shapes.neutral, pin, pins, &cfg, where);
-    return err == FAP_OK || blame(f, w->opt->from, err, where);
+    return err == FAP_OK || inputs_blame(f, w->opt->from, err, where);
 }
 
 /* The source in the head's axes and millimetres, its motions too. */
@@ -189,7 +156,7 @@ static int add_motions(work *w, fault *f)
     }
     free(use);
     free(delta);
-    return err == FAP_OK || blame(f, w->opt->from, err, "");
+    return err == FAP_OK || inputs_blame(f, w->opt->from, err, "");
 }
 
 /* The bank's face without its motions: those come from the other one. */
@@ -204,7 +171,7 @@ static int retarget_from(work *w, fault *f)
     if (err == FAP_OK)
         err = fap_bank_builder_still(&w->out, w->bank);
     if (err != FAP_OK)
-        return blame(f, w->opt->from, err, "");
+        return inputs_blame(f, w->opt->from, err, "");
     return add_motions(w, f);
 }
 
@@ -224,7 +191,7 @@ static int write_bank(const work *w, fault *f)
         else
             out_file_abandon(&out);
     }
-    return err == FAP_OK || blame(f, w->opt->output, err, "");
+    return err == FAP_OK || inputs_blame(f, w->opt->output, err, "");
 }
 
 static void say(const work *w)
