@@ -9,7 +9,7 @@
 #include "registration/bone_skin.h"
 
 /* Of a bone's shortest edge; the paper says "a fraction of the closest distance to a connected vertex". */
-static const float radius_share = 1.2f;
+static const float radius_share = 1;
 /* A vertex that no radius reaches is carried by what is nearest: their radii grow until it is this share inside. */
 static const float reach_more = 1.3f;
 static const float least_weight = 1e-3f;

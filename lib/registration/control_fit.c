@@ -15,8 +15,8 @@ static const float (*carried(const control_fit *f))[3]
     return (const float(*)[3])f->at;
 }
 
-fap_err control_fit_open(control_fit *f, bone_skin *skin, mesh_energy *energy, fap_optimizer optimizer,
-                         const fap_allocator *alloc)
+fap_err control_fit_open(control_fit *f, bone_skin *skin, mesh_energy *energy, const float (*first)[3],
+                         fap_optimizer optimizer, const fap_allocator *alloc)
 {
     const control_face *face = energy->face;
     const uint32_t n = face->vertex_count;
@@ -26,18 +26,22 @@ fap_err control_fit_open(control_fit *f, bone_skin *skin, mesh_energy *energy, f
                         .energy = energy,
                         .alloc = *alloc,
                         .control = fap_mem_calloc(alloc, skin->mesh->count, sizeof *f->control),
+                        .first = fap_mem_calloc(alloc, skin->mesh->count, sizeof *f->first),
                         .at = fap_mem_calloc(alloc, n, sizeof *f->at),
                         .pull = fap_mem_calloc(alloc, n, sizeof *f->pull),
                         .vertex = fap_mem_calloc(alloc, n, sizeof *f->vertex),
                         .vertex_stamp = fap_mem_calloc(alloc, n, sizeof *f->vertex_stamp),
                         .edge = fap_mem_calloc(alloc, energy->edge_count, sizeof *f->edge),
                         .edge_stamp = fap_mem_calloc(alloc, energy->edge_count, sizeof *f->edge_stamp) };
-    if (!f->control || !f->at || !f->pull || !f->vertex || !f->vertex_stamp || !f->edge || !f->edge_stamp)
+    if (!f->control || !f->first || !f->at || !f->pull || !f->vertex || !f->vertex_stamp || !f->edge ||
+        !f->edge_stamp)
         return FAP_E_NOMEM;
     memcpy(f->at, face->position, n * sizeof *f->at);
     for (uint32_t i = 0; i < skin->mesh->count; i++)
-        for (int a = 0; a < 3; a++)
+        for (int a = 0; a < 3; a++) {
+            f->first[i][a] = (double)first[skin->mesh->vertex[i]][a];
             f->control[i][a] = (double)face->position[skin->mesh->vertex[i]][a];
+        }
     return one_by_one ? FAP_OK : lbfgs_open(&f->lower, 3 * (size_t)skin->mesh->count, alloc);
 }
 
@@ -49,12 +53,66 @@ void control_fit_close(control_fit *f)
         return;
     lbfgs_close(&f->lower);
     fap_mem_free(a, f->control);
+    fap_mem_free(a, f->first);
     fap_mem_free(a, f->at);
     fap_mem_free(a, f->pull);
     fap_mem_free(a, f->vertex);
     fap_mem_free(a, f->vertex_stamp);
     fap_mem_free(a, f->edge);
     fap_mem_free(a, f->edge_stamp);
+}
+
+/* --- the net --- */
+
+/* How a control point has moved, less the mean of its neighbours. */
+static void unevenness(const control_fit *f, const double (*control)[3], uint32_t point, double out[3])
+{
+    const bone_skin *s = f->skin;
+    const uint32_t first = s->start[point], end = s->start[point + 1];
+    const double share = end > first ? 1.0 / (2 * (end - first)) : 0;
+
+    for (int a = 0; a < 3; a++) {
+        const double own = control[point][a] - f->first[point][a];
+        out[a] = end > first ? own : 0;
+        for (uint32_t k = first; k < end; k++)
+            for (int c = 0; c < 3; c++) {
+                const uint32_t other = s->mesh->bone[s->around[k]][c];
+                if (other != point)
+                    out[a] -= share * (control[other][a] - f->first[other][a]);
+            }
+    }
+}
+
+static void pull_even(const control_fit *f, uint32_t point, const double off[3], double by,
+                      double (*gradient)[3])
+{
+    const bone_skin *s = f->skin;
+    const uint32_t first = s->start[point], end = s->start[point + 1];
+
+    for (int a = 0; a < 3; a++) {
+        gradient[point][a] += 2 * by * off[a];
+        for (uint32_t k = first; k < end; k++)
+            for (int c = 0; c < 3; c++) {
+                const uint32_t other = s->mesh->bone[s->around[k]][c];
+                if (other != point)
+                    gradient[other][a] -= 2 * by * off[a] / (2 * (end - first));
+            }
+    }
+}
+
+static double net_value(const control_fit *f, const double (*control)[3], double (*gradient)[3])
+{
+    const double by = f->even / f->skin->mesh->count;
+    double sum = 0;
+
+    for (uint32_t i = 0; f->even > 0 && i < f->skin->mesh->count; i++) {
+        double off[3];
+        unevenness(f, control, i, off);
+        sum += by * (off[0] * off[0] + off[1] * off[1] + off[2] * off[2]);
+        if (gradient)
+            pull_even(f, i, off, by, gradient);
+    }
+    return sum;
 }
 
 /* --- all at once --- */
@@ -82,7 +140,7 @@ double control_fit_value(void *user, const double *x, double *gradient)
     const double value = mesh_energy_all(f->energy, carried(f), gradient ? f->pull : NULL);
     if (gradient)
         bone_skin_pull(f->skin, (const double(*)[3])f->pull, (double(*)[3])gradient);
-    return value;
+    return value + net_value(f, (const double(*)[3])x, (double(*)[3])gradient);
 }
 
 double control_fit_lbfgs(control_fit *f, int iterations)
@@ -147,11 +205,11 @@ static int move_point(control_fit *f, const double *x)
 static double value_around(void *user, const double *x, double *gradient)
 {
     control_fit *f = user;
-    double sum = 0;
 
     (void)gradient;
     if (!move_point(f, x))
         return INFINITY;
+    double sum = net_value(f, (const double(*)[3])f->control, NULL);
     for (uint32_t i = 0; i < f->vertex_count; i++)
         sum += mesh_energy_vertex(f->energy, carried(f), f->vertex[i], NULL);
     for (uint32_t i = 0; i < f->edge_count; i++)

@@ -17,16 +17,21 @@ typedef struct control_fit {
     mesh_energy *energy;
     fap_allocator alloc;
     double (*control)[3]; /* [skin->mesh->count] */
-    float (*at)[3];       /* [vertices] where the bones carry them */
-    double (*pull)[3];    /* [vertices] */
+    double (*first)[3];   /* [the same] where their motion counts from */
+    double even;    /* weight of how unevenly they moved: ours, for what no scan draws; the caller sets it */
+    float (*at)[3]; /* [vertices] where the bones carry them */
+    double (*pull)[3]; /* [vertices] */
     lbfgs *lower;
     uint32_t *vertex_stamp, *edge_stamp, stamp; /* simplex: what one control point changes */
     uint32_t *vertex, vertex_count, *edge, edge_count, point;
 } control_fit;
 
-/* Both are borrowed, and must outlive it. Control points are where the face is. FAP_E_NOMEM. control_fit_close() in any case. */
-fap_err control_fit_open(control_fit *f, bone_skin *skin, mesh_energy *energy, fap_optimizer optimizer,
-                         const fap_allocator *alloc);
+/*
+ * Both are borrowed, and must outlive it. Control points are where the face is, and have moved from where @p first, [vertices],
+ * has them. FAP_E_NOMEM. control_fit_close() in any case.
+ */
+fap_err control_fit_open(control_fit *f, bone_skin *skin, mesh_energy *energy, const float (*first)[3],
+                         fap_optimizer optimizer, const fap_allocator *alloc);
 void control_fit_close(control_fit *f);
 /* f->at by f->control. 0: a bone has become a line. */
 int control_fit_carry(control_fit *f);

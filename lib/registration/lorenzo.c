@@ -18,23 +18,24 @@
 #include "registration/warp.h"
 #include "surface/normals.h"
 
-/* From stiff to loose; alpha is 1. */
+/* From stiff to loose; alpha is 1. All constants were found with tests/bench/registration.c. */
 static const struct stage {
     double strain, bend; /* beta, gamma */
+    double even;         /* of the net, see control_fit.h */
     double reach_share;  /* of the configuration's reach */
     double facing;
     int rounds, iterations; /* of looking for what is near; of L-BFGS a round */
 } stages[] = {
-    { 2.0, 20, 1.0, 0.5, 3, 8 },
-    { 0.8, 8, 0.6, 0.5, 3, 8 },
-    { 0.3, 3, 0.4, 0.5, 4, 8 },
+    { 1.0, 20, 2, 1.0, 0.5, 3, 10 },
+    { 0.4, 8, 0.3, 0.6, 0.5, 3, 10 },
+    { 0.1, 3, 0.03, 0.4, 0.5, 3, 10 },
 };
 enum { STAGES = sizeof stages / sizeof *stages, SIMPLEX_ROUNDS = 1 };
 
-/* Across the scan's normal a vertex is drawn hardly at all. */
-static const double slide = 0.02;
-/* See auto.c. */
-static const double slack_per_mm2 = 3;
+/* Across the scan's normal a vertex is drawn this much less. */
+static const double slide = 0.1;
+/* How far the bent space may stay off landmarks that are a millimetre off themselves. More than auto.c's: bones come after. */
+static const double slack_per_mm2 = 30;
 /* A ray that meets the scan at a grazing angle tells a control point nothing. */
 static const double least_cosine = 0.4;
 /* After the bones: what is left is no farther than this, against the limit of the configuration. */
@@ -171,7 +172,7 @@ static fap_err open_net(lorenzo *z)
     if (err == FAP_OK)
         err = mesh_energy_open(&z->energy, &z->face, l->alloc);
     if (err == FAP_OK)
-        err = control_fit_open(&z->fit, &z->skin, &z->energy, l->cfg->optimizer, l->alloc);
+        err = control_fit_open(&z->fit, &z->skin, &z->energy, g->position, l->cfg->optimizer, l->alloc);
     return err;
 }
 
@@ -236,6 +237,7 @@ static fap_err run_stage(lorenzo *z, int stage)
     fap_err err = FAP_OK;
 
     z->energy.weights = (energy_weights){ .dist = 1, .strain = s->strain, .bend = s->bend, .slide = slide };
+    z->fit.even = s->even;
     for (int round = 0; round < rounds && err == FAP_OK; round++) {
         look(z, s);
         if (is_simplex)

@@ -182,8 +182,11 @@ static void open_sheet(sheet *s, uint32_t points, fap_optimizer optimizer)
     assert_int_equal(control_mesh_make(&s->mesh, &s->face, seed, 2, points, &s->heap), FAP_OK);
     assert_int_equal(bone_skin_open(&s->skin, &s->face, &s->mesh, &s->heap), FAP_OK);
     assert_int_equal(mesh_energy_open(&s->energy, &s->face, &s->heap), FAP_OK);
-    assert_int_equal(control_fit_open(&s->fit, &s->skin, &s->energy, optimizer, &s->heap), FAP_OK);
+    assert_int_equal(
+        control_fit_open(&s->fit, &s->skin, &s->energy, (const float(*)[3])s->at, optimizer, &s->heap),
+        FAP_OK);
     s->energy.weights = (energy_weights){ .dist = 1, .strain = 0.5, .bend = 3, .slide = 0.1 };
+    s->fit.even = 0.5;
 }
 
 static void close_sheet(sheet *s)
@@ -353,7 +356,7 @@ TEST(control_fit, lbfgs_finds_planted_control_points_and_never_rises)
     open_sheet(&s, 40, FAP_OPTIMIZER_LBFGS);
     plant(&s);
     back_to_rest(&s);
-    s.energy.weights.strain = s.energy.weights.bend = 1e-4;
+    s.energy.weights.strain = s.energy.weights.bend = s.fit.even = 1e-4;
     const double far = planted_off(&s);
     double value = INFINITY;
     for (int i = 0; i < 12; i++) {
@@ -373,7 +376,7 @@ TEST(control_fit, the_simplex_finds_them_too)
     open_sheet(&s, 40, FAP_OPTIMIZER_SIMPLEX);
     plant(&s);
     back_to_rest(&s);
-    s.energy.weights.strain = s.energy.weights.bend = 1e-4;
+    s.energy.weights.strain = s.energy.weights.bend = s.fit.even = 1e-4;
     double value = INFINITY;
     for (int i = 0; i < 10; i++) {
         const double next = control_fit_simplex(&s.fit, 1);
