@@ -8,6 +8,7 @@
 #include "common/file.h"
 #include "common/tool.h"
 #include "databank/inputs.h"
+#include "databank/range/range_file.h"
 
 static const size_t most_scan = (size_t)4 << 30, most_landmarks = (size_t)1 << 22;
 
@@ -40,6 +41,8 @@ int inputs_surface(fap_surface **out, const char *path, fault *f)
     fap_err err = file_read(path, most_scan, &data, &size);
     if (err == FAP_OK) {
         err = fap_surface_read(out, data, size, NULL, where);
+        if (err == FAP_E_UNKNOWN_FORMAT && size && data[strspn((char *)data, " \t\r\n")] == '{')
+            err = range_file_read(out, path, data, size, where);
         free(data);
     }
     return err == FAP_OK || inputs_blame(f, path, err == FAP_E_UNSUPPORTED ? FAP_E_DATA : err, where);

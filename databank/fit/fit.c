@@ -9,6 +9,7 @@
 #include "common/file.h"
 #include "common/tool.h"
 #include "databank/fit/fit.h"
+#include "databank/fit/fit_dress.h"
 #include "databank/fit/fit_pictures.h"
 #include "databank/fit/fit_report.h"
 #include "databank/inputs.h"
@@ -97,8 +98,13 @@ static int register_face(fit_work *w, fault *f)
 static int carry_motions(fit_work *w, fault *f)
 {
     const char *slash = strrchr(w->opt->scan, '/');
-    const fap_err err = fap_bank_retarget(&w->face, w->bank, fap_registration_positions(w->registration),
-                                          slash ? slash + 1 : w->opt->scan, &w->scale);
+    fap_err err = fap_bank_retarget(&w->face, w->bank, fap_registration_positions(w->registration),
+                                    slash ? slash + 1 : w->opt->scan, &w->scale);
+
+    if (err == FAP_OK)
+        err = fit_dress(w);
+    if (err == FAP_OK)
+        err = fit_dress_bank(w);
 
     return err == FAP_OK ||
            fault_set(f, EXIT_DATA, "%s: the face that came out is none: %s", w->opt->scan, fap_strerror(err));
@@ -112,13 +118,17 @@ static int ends_with(const char *path, const char *ending)
     return dot && !strcasecmp(dot, ending);
 }
 
-/* The face as a surface: the generic face's vertices in their order, with its texture coordinates where it is no finer. */
+/* The face as a surface: the generic face's vertices in their order, with the scan's texture coordinates, else the generic face's
+ * where it is no finer. */
 static fap_err write_surface(const fit_work *w, const fap_writer *out)
 {
     const fap_mesh *mesh = fap_bank_mesh(w->bank);
     fap_surface s = *fap_registration_surface(w->registration);
 
-    s.uv = mesh->uv && s.vertex_count == mesh->vertex_count ? (float(*)[2])(uintptr_t)mesh->uv : NULL;
+    s.uv = w->uv                                              ? w->uv
+           : mesh->uv && s.vertex_count == mesh->vertex_count ? (float(*)[2])(uintptr_t)mesh->uv
+                                                              : NULL;
+    s.colour = w->colour;
     return ends_with(w->opt->output, ".ply") ? fap_surface_write_ply(&s, out)
                                              : fap_surface_write_obj(&s, out);
 }
@@ -149,6 +159,7 @@ static int write_output(const fit_work *w, fault *f)
 
 static void tidy(fit_work *w)
 {
+    fit_undress(w);
     fap_bank_builder_close(&w->face);
     fap_registration_close(&w->registration);
     fap_take_close(&w->landmarks);

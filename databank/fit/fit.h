@@ -21,6 +21,8 @@ typedef struct fit_work {
     uint32_t pin_count, followed; /* followed: of these, minor points that were not given */
     fap_registration *registration;
     fap_bank_builder *face; /* the generic face's motions on the scanned one */
+    float (*uv)[2];         /* of the scan's picture, one a vertex of the laid face; NULL: it has none */
+    uint8_t (*colour)[4];   /* the same; the fourth is 0 where nothing was scanned */
     fap_retarget_scale scale;
     double seconds;
 } fit_work;

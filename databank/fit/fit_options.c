@@ -30,6 +30,8 @@ static const char help[] =
     "      --bank B.fbank    the generic face (the default face, else the built-in one; \"builtin\")\n"
     "      --method M        auto: landmarks, then the skin drawn to the scan from coarse to fine\n"
     "                        zhu: landmarks met exactly, then rays to the scan, as the thesis has it\n"
+    "                        yano: a flat template over the range image, which is sampled; any scan is made "
+    "one\n"
     "                        lorenzo: planar bones between control points, moved until distance, strain "
     "and bending\n"
     "                        cost least\n"
@@ -37,11 +39,13 @@ static const char help[] =
     "the other, by\n"
     "                        values alone; slow)\n"
     "      --control N       lorenzo: this many control points (400)\n"
-    "      --subdivide N     zhu: Loop's scheme, 0 to 3 times (0); for -o FACE.obj or .ply\n"
+    "      --subdivide N     zhu: Loop's scheme, yano: one-to-four, 0 to 3 times (0); for -o FACE.obj or "
+    ".ply\n"
     "      --minor YES       zhu: the rest of the generic face's 172 labelled points follow the landmarks\n"
     "                        (yes), or no\n"
     "      --project WAY     zhu, lorenzo: cylinder (away from the head's axis) or normal\n"
-    "      --limit MM        zhu, lorenzo: how far a ray may go (15)\n"
+    "      --limit MM        zhu, lorenzo: how far a ray may go; yano: how far off the landmarks' space "
+    "(15)\n"
     "      --unit U          of the scan: mm, cm, m or millimetres in one unit (the one that makes it a "
     "head)\n"
     "      --pin-error MM    how far off a landmark may be (1)\n"
@@ -124,7 +128,7 @@ static int parse_method(fit_options *opt, const char *text)
             opt->fit.method = (fap_registration_method)m;
             return 1;
         }
-    tool_error("--method %s: expected auto, zhu or lorenzo", text);
+    tool_error("--method %s: expected auto, zhu, yano or lorenzo", text);
     return usage(opt);
 }
 
@@ -233,8 +237,9 @@ static int check(fit_options *opt)
         tool_error("where to? -o FACE.obj, FACE.ply or FACE.fbank");
     else if (!has_known_ending(opt->output))
         tool_error("-o %s: expected a name that ends in .obj, .ply or .fbank", opt->output);
-    else if (opt->fit.subdivisions && opt->fit.method != FAP_REGISTER_ZHU)
-        tool_error("--subdivide belongs to --method zhu");
+    else if (opt->fit.subdivisions && opt->fit.method != FAP_REGISTER_ZHU &&
+             opt->fit.method != FAP_REGISTER_YANO)
+        tool_error("--subdivide belongs to --method zhu and yano");
     else if (opt->fit.subdivisions && !strcasecmp(strrchr(opt->output, '.'), ".fbank"))
         tool_error("--subdivide: a bank's motions are those of the face as it is; write FACE.obj or .ply");
     else {

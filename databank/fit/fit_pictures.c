@@ -7,6 +7,7 @@
 #include "common/tool.h"
 #include "databank/drawing.h"
 #include "databank/fit/fit_pictures.h"
+#include "databank/rewrite.h"
 #include "surface/nearest.h"
 
 /* The warmest colour of the heat map. */
@@ -96,9 +97,10 @@ static int open(pictures *p)
         return fault_set(p->to.f, EXIT_DATA, "out of memory");
     for (uint32_t i = 0; i < scan->vertex_count; i++)
         fap_registration_to_head(p->w->registration, scan->position[i], p->in_head[i]);
+    const fap_err err = bank_rewrite(&p->face, p->w->face);
+    if (err != FAP_OK)
+        return fault_set(p->to.f, EXIT_DATA, "%s: %s", p->to.folder, fap_strerror(err));
     return drawing_open_folder(&p->to) &&
-           drawing_of_face(&p->to, &p->face, p->w->bank, fap_registration_positions(p->w->registration),
-                           NULL) &&
            drawing_of_scan(&p->to, &p->scan, p->face, scan, (const float(*)[3])p->in_head);
 }
 

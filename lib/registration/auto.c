@@ -12,7 +12,6 @@
 #include "base/mem.h"
 #include "registration/elastic.h"
 #include "registration/laying.h"
-#include "registration/warp.h"
 #include "surface/normals.h"
 
 /* From coarse to fine. */
@@ -46,43 +45,6 @@ typedef struct autofit {
     double ease;        /* of a mesh with long edges, which bending is counted in */
     uint8_t *foreign;   /* [scan triangles] 1: nearest to something that is no skin */
 } autofit;
-
-/* --- landmarks --- */
-
-static fap_err bend_space(autofit *f)
-{
-    laying *l = f->l;
-    double(*centre)[3] = fap_mem_calloc(l->alloc, l->pin_count, sizeof *centre);
-    double(*move)[3] = fap_mem_calloc(l->alloc, l->pin_count, sizeof *move);
-    uint32_t n = 0;
-    warp w;
-
-    for (uint32_t i = 0; centre && move && i < l->pin_count; i++) {
-        if (l->pin[i].weight <= 0)
-            continue;
-        laying_pin_place(&l->pin[i], l->generic->position, centre[n]);
-        for (int a = 0; a < 3; a++)
-            move[n][a] = l->pin[i].at[a] - centre[n][a];
-        n++;
-    }
-    fap_err err = centre && move ? FAP_OK : FAP_E_NOMEM;
-    if (err == FAP_OK)
-        err = warp_open(&w, WARP_BIHARMONIC, (const double(*)[3])centre, (const double(*)[3])move, NULL, n,
-                        slack_per_mm2 * l->cfg->pin_error_mm * l->cfg->pin_error_mm, l->alloc);
-    for (uint32_t i = 0; err == FAP_OK && i < l->generic->vertex_count; i++) {
-        double at[3], moved[3];
-        for (int a = 0; a < 3; a++)
-            at[a] = (double)l->generic->position[i][a];
-        warp_move(&w, at, moved);
-        for (int a = 0; a < 3; a++)
-            l->at[i][a] = (float)(at[a] + moved[a]);
-    }
-    if (err == FAP_OK)
-        warp_close(&w, l->alloc);
-    fap_mem_free(l->alloc, centre);
-    fap_mem_free(l->alloc, move);
-    return err == FAP_E_DATA ? FAP_OK : err; /* too few landmarks to bend anything */
-}
 
 /* --- which side of the slits the scan is on --- */
 
@@ -318,7 +280,7 @@ fap_err laying_auto(laying *l)
 
     fap_err err = open(&f);
     if (err == FAP_OK)
-        err = bend_space(&f);
+        err = laying_bend(l, WARP_BIHARMONIC, slack_per_mm2 * l->cfg->pin_error_mm * l->cfg->pin_error_mm);
     if (err == FAP_OK)
         err = run_stages(&f);
     if (err == FAP_OK)

@@ -16,5 +16,10 @@ cylinder cylinder_around(const float (*at)[3], uint32_t count);
 void cylinder_outwards(const cylinder *c, const float at[3], float out[3]);
 /* Angle in radians, 0 straight ahead (z), then height and distance from the axis. */
 void cylinder_unroll(const cylinder *c, const float at[3], double out[3]);
+/*
+ * Whether a place on the head's skin is of the face: not of ears, top and back, which scanners see badly and which differ with the
+ * hair (Zhu 2006 section 4.6).
+ */
+int cylinder_is_face(const cylinder *c, const float at[3]);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See fap/studio/landmarks.h. Landmarks are a take of one frame, so that every name that a marker may have is known. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,6 +71,25 @@ static fap_err take_vertex(reading *r, int line, const char *text, float at[3])
     return FAP_OK;
 }
 
+/* The sample of a range image that is nearest to a pixel. */
+static fap_err take_pixel(reading *r, int line, char *const *cell, float at[3])
+{
+    const fap_surface *s = r->scan;
+    float u, v;
+
+    if (!s || !s->grid)
+        return fail(r, FAP_E_DATA, line, "pixels are places in range images, and the scan is none");
+    if (!fap_read_floats(cell[1], &u, 1) || !fap_read_floats(cell[2], &v, 1))
+        return fail(r, FAP_E_SYNTAX, line, "expected NAME, column, row, px");
+    if (!(u >= -0.5F && v >= -0.5F && u < (float)s->columns - 0.5F && v < (float)s->rows - 0.5F))
+        return fail(r, FAP_E_DATA, line, "the range image has no such pixel");
+    const uint32_t i = s->grid[(size_t)lrintf(v) * s->columns + (size_t)lrintf(u)];
+    if (i == UINT32_MAX)
+        return fail(r, FAP_E_DATA, line, "nothing was seen at that pixel");
+    memcpy(at, s->position[i], 3 * sizeof *at);
+    return FAP_OK;
+}
+
 /* A first line that has no number names the columns. */
 static int is_heading(int line, char *const *cell, int count)
 {
@@ -94,6 +114,10 @@ static fap_err take_line(reading *r, int line, char *text)
     snprintf(m->name, sizeof m->name, "%s", cell[0]);
     if (count == 2) {
         const fap_err err = take_vertex(r, line, cell[1], m->at);
+        if (err != FAP_OK)
+            return err;
+    } else if (count == 4 && !strcmp(cell[3], "px")) {
+        const fap_err err = take_pixel(r, line, cell, m->at);
         if (err != FAP_OK)
             return err;
     } else if (count < 4 || !fap_read_floats(cell[1], &m->at[0], 1) ||

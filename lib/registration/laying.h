@@ -7,6 +7,7 @@
 
 #include "capture/rigid.h"
 #include "registration/loop.h"
+#include "registration/warp.h"
 #include "surface/edges.h"
 #include "surface/nearest.h"
 
@@ -25,6 +26,7 @@ typedef struct laying {
     rigid_pose pose; /* generic = pose of (scan * scale) */
     double scale;
     /* The scan. */
+    const fap_surface *surface; /* as it came */
     uint32_t scan_vertices, scan_triangles;
     float (*scan)[3], (*scan_normal)[3];
     const uint32_t (*scan_triangle)[3];
@@ -51,13 +53,22 @@ void laying_note(const laying *l, const char *fmt, ...) __attribute__((format(pr
 /* Eyes, teeth, tongue, lashes: turned, moved and scaled as the skin around them was. */
 void laying_bring_inside(laying *l);
 
-/* One step of Loop's scheme: l->generic is a finer one from then on, whose first vertices are those of the one before. */
-fap_err laying_subdivide(laying *l);
+/*
+ * l->at: the generic face where the pins bend it. @slack: how far off, squared, they may stay; then too few of them bend nothing, and
+ * without it FAP_E_DATA is noted and returned.
+ */
+fap_err laying_bend(laying *l, warp_kernel kernel, double slack);
+/*
+ * One step of Loop's scheme, or @flat one-to-four without rounding: l->generic is a finer one from then on, whose first vertices
+ * are those of the one before.
+ */
+fap_err laying_subdivide(laying *l, int flat);
 fap_err laying_fail(const laying *l, fap_err err, const char *text);
 
 /* The methods: l->at, from where the generic face is. */
 fap_err laying_auto(laying *l);
 fap_err laying_zhu(laying *l);
+fap_err laying_yano(laying *l);
 fap_err laying_lorenzo(laying *l);
 
 #endif

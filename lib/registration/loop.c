@@ -18,6 +18,7 @@ typedef struct step {
     surface_edges edges;
     uint32_t *around, *rims; /* neighbours of a vertex, and those along a border */
     loop_mesh *out;
+    int flat;
 } step;
 
 static int is_rim(const surface_edge *e)
@@ -45,11 +46,12 @@ static void place_edge(step *s, uint32_t i)
 {
     const surface_edge *e = &s->edges.edge[i];
     float *at = s->out->position[s->vertex_count + i];
-    const double end = is_rim(e) ? 0.5 : 0.375;
+    const int straight = is_rim(e) || s->flat;
+    const double end = straight ? 0.5 : 0.375;
 
     add(at, end, s->old[e->low]);
     add(at, end, s->old[e->high]);
-    for (int side = 0; !is_rim(e) && side < 2; side++)
+    for (int side = 0; !straight && side < 2; side++)
         add(at, 0.125, s->old[across(s, e, side)]);
 }
 
@@ -74,12 +76,13 @@ static double neighbour_weight(const step *s, uint32_t v, const surface_edge *e)
 static void place_vertices(step *s)
 {
     for (uint32_t v = 0; v < s->vertex_count; v++) {
-        const double moved = s->rims[v]          ? (s->rims[v] == 2 ? 0.25 : 0)
+        const double moved = s->flat             ? 0
+                             : s->rims[v]        ? (s->rims[v] == 2 ? 0.25 : 0)
                              : s->around[v] == 3 ? 9.0 / 16
                                                  : 3.0 / 8;
         add(s->out->position[v], s->around[v] ? 1 - moved : 1, s->old[v]);
     }
-    for (uint32_t i = 0; i < s->edges.count; i++) {
+    for (uint32_t i = 0; !s->flat && i < s->edges.count; i++) {
         const surface_edge *e = &s->edges.edge[i];
         add(s->out->position[e->low], neighbour_weight(s, e->low, e), s->old[e->high]);
         add(s->out->position[e->high], neighbour_weight(s, e->high, e), s->old[e->low]);
@@ -112,11 +115,13 @@ static void pass_on(const step *s, const uint8_t *old, uint8_t *out, int both)
             both ? old[s->edges.edge[i].low] & old[s->edges.edge[i].high] : old[s->edges.edge[i].low];
 }
 
-fap_err loop_subdivide(loop_mesh *out, const float (*position)[3], uint32_t vertex_count,
-                       const uint32_t (*triangle)[3], uint32_t triangle_count, const uint8_t *part,
-                       const uint8_t *mask, const fap_allocator *alloc)
+static fap_err divide_all(loop_mesh *out, const float (*position)[3], uint32_t vertex_count,
+                          const uint32_t (*triangle)[3], uint32_t triangle_count, const uint8_t *part,
+                          const uint8_t *mask, const fap_allocator *alloc, int flat)
 {
-    step s = { .old = position, .triangle = triangle, .vertex_count = vertex_count, .out = out };
+    step s = {
+        .old = position, .triangle = triangle, .vertex_count = vertex_count, .out = out, .flat = flat
+    };
 
     *out = (loop_mesh){ 0 };
     fap_err err = surface_edges_find(&s.edges, triangle, triangle_count, vertex_count, alloc);
@@ -153,6 +158,20 @@ fap_err loop_subdivide(loop_mesh *out, const float (*position)[3], uint32_t vert
     fap_mem_free(alloc, s.around);
     fap_mem_free(alloc, s.rims);
     return err;
+}
+
+fap_err loop_subdivide(loop_mesh *out, const float (*position)[3], uint32_t vertex_count,
+                       const uint32_t (*triangle)[3], uint32_t triangle_count, const uint8_t *part,
+                       const uint8_t *mask, const fap_allocator *alloc)
+{
+    return divide_all(out, position, vertex_count, triangle, triangle_count, part, mask, alloc, 0);
+}
+
+fap_err loop_split(loop_mesh *out, const float (*position)[3], uint32_t vertex_count,
+                   const uint32_t (*triangle)[3], uint32_t triangle_count, const uint8_t *part,
+                   const uint8_t *mask, const fap_allocator *alloc)
+{
+    return divide_all(out, position, vertex_count, triangle, triangle_count, part, mask, alloc, 1);
 }
 
 void loop_free(loop_mesh *m, const fap_allocator *alloc)

@@ -24,6 +24,10 @@ typedef struct loop_mesh {
 fap_err loop_subdivide(loop_mesh *out, const float (*position)[3], uint32_t vertex_count,
                        const uint32_t (*triangle)[3], uint32_t triangle_count, const uint8_t *part,
                        const uint8_t *mask, const fap_allocator *alloc);
+/* One-to-four without rounding: old vertices stay, new ones are in the middle of their edges (Yano & Harada 2009, 3.1). */
+fap_err loop_split(loop_mesh *out, const float (*position)[3], uint32_t vertex_count,
+                   const uint32_t (*triangle)[3], uint32_t triangle_count, const uint8_t *part,
+                   const uint8_t *mask, const fap_allocator *alloc);
 void loop_free(loop_mesh *m, const fap_allocator *alloc);
 
 #endif

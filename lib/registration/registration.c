@@ -27,7 +27,7 @@ static const double far_off = 6, heads_differ_mm = 2.5;
 
 enum { ALIGN_ROUNDS = 8, NORMAL_ROUNDS = 3 };
 
-static const char *const names[FAP_REGISTER_COUNT] = { "auto", "zhu", "lorenzo" };
+static const char *const names[FAP_REGISTER_COUNT] = { "auto", "zhu", "yano", "lorenzo" };
 static const char *const optimizers[FAP_OPTIMIZER_COUNT] = { "lbfgs", "simplex" };
 
 const char *fap_registration_name(int method)
@@ -81,16 +81,19 @@ fap_err laying_fail(const laying *l, fap_err err, const char *text)
 }
 
 /* The shape at rest and the one laid so far are made finer alike. */
-fap_err laying_subdivide(laying *l)
+fap_err laying_subdivide(laying *l, int flat)
 {
     const fap_generic *g = l->generic;
     loop_mesh rest, at;
+    fap_err (*const divide)(loop_mesh *, const float(*)[3], uint32_t, const uint32_t(*)[3], uint32_t,
+                            const uint8_t *, const uint8_t *, const fap_allocator *) =
+        flat ? loop_split : loop_subdivide;
 
-    fap_err err = loop_subdivide(&rest, g->position, g->vertex_count, g->triangle, g->triangle_count, g->part,
-                                 g->mask, l->alloc);
+    fap_err err = divide(&rest, g->position, g->vertex_count, g->triangle, g->triangle_count, g->part,
+                         g->mask, l->alloc);
     if (err == FAP_OK)
-        err = loop_subdivide(&at, (const float(*)[3])l->at, g->vertex_count, g->triangle, g->triangle_count,
-                             NULL, NULL, l->alloc);
+        err = divide(&at, (const float(*)[3])l->at, g->vertex_count, g->triangle, g->triangle_count, NULL,
+                     NULL, l->alloc);
     if (err != FAP_OK) {
         loop_free(&rest, l->alloc);
         return err;
@@ -288,6 +291,7 @@ static int smooth_normals(laying *l)
 
 static fap_err bring_scan(laying *l, const fap_surface *scan)
 {
+    l->surface = scan;
     l->scan_vertices = scan->vertex_count;
     l->scan_triangles = scan->triangle_count;
     l->scan_triangle = (const uint32_t(*)[3])scan->triangle;
@@ -447,6 +451,7 @@ static fap_err run(laying *l)
     switch (l->cfg->method) {
     case FAP_REGISTER_AUTO: return laying_auto(l);
     case FAP_REGISTER_ZHU: return laying_zhu(l);
+    case FAP_REGISTER_YANO: return laying_yano(l);
     case FAP_REGISTER_LORENZO: return laying_lorenzo(l);
     default: return laying_fail(l, FAP_E_ARG, "no such method");
     }

@@ -7,133 +7,18 @@
  * and can be left out (4.6). The affine part of the bending is ours: without it a head that is larger everywhere comes out
  * lumpy between the landmarks.
  */
-#include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "registration/cylinder.h"
 #include "registration/laying.h"
-#include "registration/loop.h"
-#include "registration/warp.h"
 #include "surface/normals.h"
-
-/* Seen from the head's axis, the face is this far to either side of straight ahead; ears begin there. */
-static const double face_degrees = 80;
-/* And this share of the head's height above its middle: there the hair begins. */
-static const double face_top = 0.62;
-
-/* --- 4.3 --- */
-
-/* Lips that are shut have two landmarks in one place, and no function takes two values there: they share the mean. */
-static const double one_place_mm = 0.2;
-
-typedef struct bending {
-    double (*centre)[3], (*move)[3];
-    uint32_t *merged, count;
-} bending;
-
-static uint32_t find_centre(const bending *b, const double at[3])
-{
-    for (uint32_t i = 0; i < b->count; i++)
-        if (pow(at[0] - b->centre[i][0], 2) + pow(at[1] - b->centre[i][1], 2) +
-                pow(at[2] - b->centre[i][2], 2) <
-            one_place_mm * one_place_mm)
-            return i;
-    return b->count;
-}
-
-static void collect(const laying *l, bending *b)
-{
-    for (uint32_t i = 0; i < l->pin_count; i++) {
-        double at[3];
-        if (l->pin[i].weight <= 0)
-            continue;
-        laying_pin_place(&l->pin[i], l->generic->position, at);
-        const uint32_t k = find_centre(b, at);
-        if (k == b->count)
-            memcpy(b->centre[b->count++], at, sizeof at);
-        b->merged[k]++;
-        for (int a = 0; a < 3; a++)
-            b->move[k][a] += (l->pin[i].at[a] - at[a] - b->move[k][a]) / b->merged[k];
-    }
-}
-
-static void bend_face(laying *l, const warp *w)
-{
-    for (uint32_t i = 0; i < l->generic->vertex_count; i++) {
-        double at[3], moved[3];
-        for (int a = 0; a < 3; a++)
-            at[a] = (double)l->generic->position[i][a];
-        warp_move(w, at, moved);
-        for (int a = 0; a < 3; a++)
-            l->at[i][a] = (float)(at[a] + moved[a]);
-    }
-}
-
-static fap_err bend(laying *l)
-{
-    bending b = { .centre = fap_mem_calloc(l->alloc, l->pin_count, sizeof *b.centre),
-                  .move = fap_mem_calloc(l->alloc, l->pin_count, sizeof *b.move),
-                  .merged = fap_mem_calloc(l->alloc, l->pin_count, sizeof *b.merged) };
-    fap_err err = b.centre && b.move && b.merged ? FAP_OK : FAP_E_NOMEM;
-    warp w;
-
-    if (err == FAP_OK) {
-        collect(l, &b);
-        err = warp_open(&w, WARP_HARDY, (const double(*)[3])b.centre, (const double(*)[3])b.move, NULL,
-                        b.count, 0, l->alloc);
-    }
-    if (err == FAP_OK) {
-        bend_face(l, &w);
-        warp_close(&w, l->alloc);
-    }
-    fap_mem_free(l->alloc, b.centre);
-    fap_mem_free(l->alloc, b.move);
-    fap_mem_free(l->alloc, b.merged);
-    return err;
-}
 
 /* --- 4.5, 4.6 --- */
 
-typedef struct cylinder {
-    double x, z;          /* the axis, upright */
-    double middle_y, top; /* of the face */
-} cylinder;
-
-/* The middle of the generic head's box. */
-static cylinder find_axis(const laying *l)
-{
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
-
-    for (uint32_t i = 0; i < l->generic->vertex_count; i++)
-        for (int a = 0; a < 3; a++) {
-            low[a] = fmin(low[a], (double)l->generic->position[i][a]);
-            high[a] = fmax(high[a], (double)l->generic->position[i][a]);
-        }
-    const double middle = (low[1] + high[1]) / 2;
-    return (cylinder){ (low[0] + high[0]) / 2, (low[2] + high[2]) / 2, middle,
-                       middle + face_top * (high[1] - middle) };
-}
-
 static int is_face(const laying *l, const cylinder *c, uint32_t i)
 {
-    const float *p = l->generic->position[i];
-    const double degrees = fabs(atan2((double)p[0] - c->x, (double)p[2] - c->z)) * 57.29577951308232;
-
-    return laying_is_skin(l, i) && degrees < face_degrees && (double)p[1] < c->top;
-}
-
-static void direction_of(const laying *l, const cylinder *c, uint32_t i, float out[3])
-{
-    const float *p = l->at[i];
-    double v[3] = { (double)p[0] - c->x, 0, (double)p[2] - c->z };
-
-    if (l->cfg->along_normals) {
-        memcpy(out, l->normal[i], 3 * sizeof *out);
-        return;
-    }
-    const double length = fmax(1e-9, sqrt(v[0] * v[0] + v[2] * v[2]));
-    for (int a = 0; a < 3; a++)
-        out[a] = (float)(v[a] / length);
+    return laying_is_skin(l, i) && cylinder_is_face(c, l->generic->position[i]);
 }
 
 /* The nearer of what is met outwards and inwards; 0: nothing within the limit. */
@@ -154,7 +39,7 @@ static int project(const laying *l, uint32_t i, const float direction[3], float 
 static fap_err refine(laying *l)
 {
     const fap_generic *g = l->generic;
-    const cylinder c = find_axis(l);
+    const cylinder c = cylinder_around(g->position, g->vertex_count);
     float(*to)[3] = fap_mem_calloc(l->alloc, g->vertex_count, sizeof *to);
 
     if (!to)
@@ -165,7 +50,10 @@ static fap_err refine(laying *l)
         memcpy(to[i], l->at[i], sizeof to[i]);
         if (!is_face(l, &c, i))
             continue;
-        direction_of(l, &c, i, direction);
+        if (l->cfg->along_normals)
+            memcpy(direction, l->normal[i], sizeof direction);
+        else
+            cylinder_outwards(&c, l->at[i], direction);
         project(l, i, direction, to[i]);
     }
     memcpy(l->at, to, g->vertex_count * sizeof *to);
@@ -175,12 +63,10 @@ static fap_err refine(laying *l)
 
 fap_err laying_zhu(laying *l)
 {
-    fap_err err = bend(l);
+    fap_err err = laying_bend(l, WARP_HARDY, 0);
 
-    if (err == FAP_E_DATA)
-        return laying_fail(l, err, "the landmarks are too few, or all in one plane, to bend space by");
     for (int step = 0; step < l->cfg->subdivisions && err == FAP_OK; step++)
-        err = laying_subdivide(l);
+        err = laying_subdivide(l, 0);
     if (err == FAP_OK)
         err = laying_progress(l, 0.5);
     if (err == FAP_OK)

@@ -152,7 +152,7 @@ double bench_retarget_error_mm(void);
 double bench_retarget_other_error_mm(void);
 
 /* A face laid onto scans whose truth is known; X(name, method). */
-#define BENCH_REGISTRATION(X) X(auto, FAP_REGISTER_AUTO) X(zhu, FAP_REGISTER_ZHU) X(lorenzo, FAP_REGISTER_LORENZO)
+#define BENCH_REGISTRATION(X) X(auto, FAP_REGISTER_AUTO) X(zhu, FAP_REGISTER_ZHU) X(yano, FAP_REGISTER_YANO) X(lorenzo, FAP_REGISTER_LORENZO)
 #define X(name, method)                                                                                      \
     double bench_fit_s_##name(void);                                                                         \
     double bench_fit_surface_rms_mm_##name(void);                                                            \

@@ -16,7 +16,8 @@ extern "C" {
 #endif
 
 /**
- * Read lines of NAME, x, y, z in the scan's unit and axes, or of NAME, number of a vertex (0 is the first). Commas, semicolons,
+ * Read lines of NAME, x, y, z in the scan's unit and axes, of NAME, number of a vertex (0 is the first), or of NAME, column, row,
+ * "px" in a range image. Commas, semicolons,
  * tabs or blanks between; a first line of words and lines behind # are passed over.
  * @param scan  whose vertices are meant; NULL: numbers of vertices are refused
  * @param out   a take of one frame: fap_take_close()

@@ -33,10 +33,11 @@ typedef struct fap_pin {
 typedef enum fap_registration_method {
     FAP_REGISTER_AUTO,    /**< the joined method; the default */
     FAP_REGISTER_ZHU,     /**< RBF, subdivision, cylindrical or normal projection: as the thesis has it */
+    FAP_REGISTER_YANO,    /**< a template in the plane of a range image, which is sampled */
     FAP_REGISTER_LORENZO, /**< planar bones moved until distance, strain and bending cost least */
     FAP_REGISTER_COUNT
 } fap_registration_method;
-/** "auto", "zhu", "lorenzo"; NULL for another number. Static. */
+/** "auto", "zhu", "yano", "lorenzo"; NULL for another number. Static. */
 FAP_API const char *fap_registration_name(int method);
 
 /** How the lorenzo method goes down. */
@@ -59,7 +60,7 @@ typedef struct fap_registration_config {
     int in_place; /**< 1: the scan and its pins are in millimetres and the head's axes already; mm_per_unit is of no use */
     double pin_error_mm; /**< how far off a landmark with trust 1 may be, standard deviation; 1 */
     double reach_mm;     /**< skin farther than this from the laid face belongs to something else; 12 */
-    int subdivisions; /**< zhu: steps of Loop's scheme, 0 to 3; 0. fap_registration_surface() has the finer face */
+    int subdivisions; /**< zhu: steps of Loop's scheme, yano: one-to-four; 0 to 3; 0. fap_registration_surface() has the finer face */
     int along_normals;       /**< zhu, lorenzo: rays go along normals, not away from the head's axis; 0 */
     double limit_mm;         /**< zhu, lorenzo: a ray that meets nothing before is given up; 15 */
     fap_optimizer optimizer; /**< lorenzo; ::FAP_OPTIMIZER_LBFGS */
