@@ -4,6 +4,7 @@
 
 #include "common/tool.h"
 #include "databank/fit/fit.h"
+#include "databank/masks/masks.h"
 #include "databank/options.h"
 #include "databank/pick/pick_run.h"
 #include "databank/report.h"
@@ -18,6 +19,8 @@ int main(int argc, char **argv)
     tool_name = "fapbank";
     if (argc > 1 && !strcmp(argv[1], "fit"))
         return fit_run(argc - 1, argv + 1);
+    if (argc > 1 && !strcmp(argv[1], "masks"))
+        return masks_run(argc - 1, argv + 1);
     if (argc > 1 && !strcmp(argv[1], "pick"))
         return pick_run(argc - 1, argv + 1);
     if (argc > 1 && !strcmp(argv[1], "retarget"))

@@ -21,14 +21,19 @@ static fap_err with_colours(fap_bank **bank, const uint8_t (*colour)[4])
     return err;
 }
 
-static void colour_of_mask(const fap_bank *bank, uint32_t v, uint8_t out[4])
+void paint_mask_colour(uint8_t mask, uint8_t colour[4])
 {
     static const uint8_t colours[FAP_MASK_BITS][4] = { { 220, 40, 40 },  { 40, 80, 220 },  { 250, 170, 30 },
                                                        { 30, 160, 160 }, { 250, 170, 30 }, { 30, 160, 160 } };
 
     for (int bit = 0; bit < FAP_MASK_BITS; bit++)
-        if (fap_bank_masks(bank)[v] >> bit & 1)
-            memcpy(out, colours[bit], 4);
+        if (mask >> bit & 1)
+            memcpy(colour, colours[bit], 4);
+}
+
+static void colour_of_mask(const fap_bank *bank, uint32_t v, uint8_t out[4])
+{
+    paint_mask_colour(fap_bank_masks(bank)[v], out);
 }
 
 static uint8_t channel(float distance_mm, float extent_mm)
@@ -49,9 +54,14 @@ static void colour_of_region(const fap_bank *bank, uint32_t v, uint8_t out[4])
     out[3] = 0;
 }
 
+fap_err paint_find_maps(fap_bank **bank)
+{
+    return fap_bank_masks(*bank) && fap_bank_regions(*bank) ? FAP_OK : with_colours(bank, NULL);
+}
+
 fap_err paint_bank(fap_bank **bank, paint what)
 {
-    fap_err err = fap_bank_masks(*bank) && fap_bank_regions(*bank) ? FAP_OK : with_colours(bank, NULL);
+    fap_err err = paint_find_maps(bank);
     const fap_mesh *mesh = fap_bank_mesh(*bank);
     uint8_t(*colour)[4] = err ? NULL : malloc((size_t)mesh->vertex_count * sizeof *colour);
 

@@ -181,6 +181,7 @@ static const struct word {
     { "point", take_point, 1 },
     { "place", take_place, 1 },
     { "eye", take_eye, 1 },
+    { "masks", recipe_take_masks, 1 },
     { "unit", take_unit, 1 },
     { "viseme", take_viseme, 1 },
     { "extra", take_extra, 1 },

@@ -39,6 +39,7 @@ typedef struct recipe {
 /* One statement a function: what stands behind its word. FAP_E_SYNTAX: it is not one. */
 fap_err recipe_take_mesh(recipe *r, const char *rest);
 fap_err recipe_take_group(recipe *r, const char *rest);
+fap_err recipe_take_masks(recipe *r, const char *rest);
 /* Motion out of a .target, or as the difference of another OBJ of the same topology. */
 fap_err recipe_read_motion(const recipe *r, const char *file, float (*delta)[3]);
 
