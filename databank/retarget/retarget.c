@@ -5,19 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <fap/arkit.h>
 #include <fap/studio/expression.h>
 #include <fap/studio/landmarks.h>
 #include <fap/studio/retarget.h>
-#include <fap/tables.h>
 
 #include "common/file.h"
 #include "common/json.h"
 #include "common/tool.h"
+#include "databank/build/marked.h"
 #include "databank/inputs.h"
 #include "databank/retarget/retarget.h"
 #include "databank/retarget/retarget_options.h"
-#include "databank/retarget/shapes.h"
+#include "databank/shapes.h"
 
 typedef struct work {
     const retarget_options *opt;
@@ -99,38 +98,6 @@ static void turn_source(work *w)
     }
 }
 
-static int number_of(const char *name, int count, const char *(*name_of)(int))
-{
-    for (int i = 1; i <= count; i++)
-        if (!strcmp(name, name_of(i)))
-            return i;
-    return 0;
-}
-
-/* "viseme_PP", "expression_joy": as fapplay -o NAME.glb calls them. */
-static const char *plain_name(const char *name)
-{
-    static const char *const prefixes[] = { "viseme_", "expression_" };
-
-    for (int i = 0; i < 2; i++)
-        if (!strncmp(name, prefixes[i], strlen(prefixes[i])))
-            return name + strlen(prefixes[i]);
-    return name;
-}
-
-static fap_err add_key(work *w, const char *given, const float (*delta)[3])
-{
-    const char *name = plain_name(given);
-    const int expression = number_of(name, FAP_EXPRESSION_COUNT, fap_expression_name);
-    const int viseme = number_of(name, FAP_VISEME_COUNT, fap_viseme_name), shape = fap_arkit_by_name(name);
-
-    if (expression)
-        return fap_bank_builder_key(w->out, FAP_KEY_EXPRESSION, expression, name, delta);
-    if (viseme)
-        return fap_bank_builder_key(w->out, FAP_KEY_VISEME, viseme, name, delta);
-    return fap_bank_builder_key(w->out, FAP_KEY_UNIT, 0, shape >= 0 ? fap_arkit_name(shape) : name, delta);
-}
-
 static int add_motions(work *w, fault *f)
 {
     const uint32_t n = w->generic.vertex_count;
@@ -151,7 +118,7 @@ static int add_motions(work *w, fault *f)
         if (err == FAP_OK)
             err = fap_motion_carry(w->bank, w->generic.position, delta);
         if (err == FAP_OK)
-            err = add_key(w, w->shapes.name[s], (const float(*)[3])delta);
+            err = marked_add_shape(w->out, w->shapes.name[s], (const float(*)[3])delta);
         w->keys++;
     }
     free(use);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* The shapes of one face: a neutral one and what it can do, from a folder of meshes or from a file with morph targets. */
-#ifndef DATABANK_RETARGET_SHAPES_H
-#define DATABANK_RETARGET_SHAPES_H
+#ifndef DATABANK_SHAPES_H
+#define DATABANK_SHAPES_H
 
 #include <fap/studio/surface.h>
 

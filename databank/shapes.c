@@ -10,7 +10,7 @@
 
 #include "common/file.h"
 #include "common/tool.h"
-#include "databank/retarget/shapes.h"
+#include "databank/shapes.h"
 
 enum { PATH_SIZE = 4096, FILES_MAX = SHAPES_MAX + 1 };
 
