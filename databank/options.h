@@ -10,9 +10,11 @@ typedef enum command { COMMAND_BUILD, COMMAND_INFO, COMMAND_RENDER, COMMAND_FAT,
 
 typedef struct options {
     command command;
-    const char *input;    /* recipe or bank */
-    const char *output;   /* NULL where the command needs none */
-    const char *pictures; /* of build, a folder; NULL: none */
+    const char *input;            /* recipe or bank */
+    const char *output;           /* NULL where the command needs none */
+    const char *landmarks, *like; /* of build from shapes; NULL: not said */
+    double unit_mm;               /* the same; 0: not said */
+    const char *pictures;         /* of build, a folder; NULL: none */
     int json;
     int components; /* of pca, at most */
     paint paint;    /* what render shows by colours */

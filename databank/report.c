@@ -288,7 +288,7 @@ static int print_failure(const report *rep, const options *opt, fap_err err)
         return EXIT_MISSING;
     }
     if (*rep->recipe.why) {
-        tool_error("%s: %s", rep->where, rep->recipe.why);
+        tool_error("%s%s%s", rep->where, *rep->where ? ": " : "", rep->recipe.why);
         return err == FAP_E_UNSUPPORTED ? EXIT_MISSING : tool_exit_code(err);
     }
     tool_error("%s: %s", rep->where, err == FAP_E_IO && errno ? strerror(errno) : fap_strerror(err));

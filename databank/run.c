@@ -11,6 +11,7 @@
 #include "common/tool.h"
 #include "databank/build/import_ict.h"
 #include "databank/build/import_makehuman.h"
+#include "databank/build/import_shapes.h"
 #include "databank/drawing.h"
 #include "databank/paint.h"
 #include "databank/build/recipe.h"
@@ -96,6 +97,24 @@ static fap_err make_recipe(fap_bank_builder **out, const options *opt, report *r
     return err;
 }
 
+/* What a fault says, as a report does. */
+static fap_err fail_with(const fault *f, report *rep)
+{
+    snprintf(rep->recipe.why, sizeof rep->recipe.why, "%.250s", f->text);
+    *rep->where = '\0';
+    return f->exit_status == EXIT_MISSING ? FAP_E_UNSUPPORTED
+           : f->exit_status == EXIT_USAGE ? FAP_E_ARG
+                                          : FAP_E_DATA;
+}
+
+static fap_err make_shapes(fap_bank_builder **out, const options *opt, report *rep)
+{
+    fault f = { 0 };
+
+    return import_shapes(out, opt->input, opt->landmarks, opt->like, opt->unit_mm, &f) ? FAP_OK
+                                                                                       : fail_with(&f, rep);
+}
+
 static fap_err make(fap_bank_builder **out, const options *opt, report *rep)
 {
     const char *recipe = opt->input;
@@ -107,6 +126,8 @@ static fap_err make(fap_bank_builder **out, const options *opt, report *rep)
         return import_ict(out, recipe + sizeof ict - 1, rep->where, sizeof rep->where);
     if (recipe_is(recipe))
         return make_recipe(out, opt, rep);
+    if (import_shapes_is(recipe))
+        return make_shapes(out, opt, rep);
 #if !defined(HAVE_ZLIB)
     rep->missing = "zlib";
 #elif !defined(HAVE_JPEG)

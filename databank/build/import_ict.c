@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * See import_ict.h. The model's vertices come in ranges, which its own read-me lists. Left out of the drawing are the film on the
- * eyes and what shades them: they are made to be seen through. Both sides of a shape that ARKit has as one are added.
+ * See import_ict.h. The model's vertices come in ranges, which its own read-me lists. Left out are the triangles of the film on
+ * the eyes, of what shades them and of the lashes: they are made to be seen through. Both sides of a shape that ARKit has as one are added.
  */
 #include <dirent.h>
 #include <stdio.h>
@@ -24,7 +24,6 @@ enum {
     TEETH_END = 21451,
     EYE_LEFT_END = 23021,
     EYES_END = 24591,
-    FILM_END = 25351,
     SHAPES_MAX = 128,
     NAME_SIZE = 64,
     PATH_SIZE = 4096
@@ -137,7 +136,7 @@ static void drop_film(fap_surface *s)
     uint32_t kept = 0;
 
     for (uint32_t t = 0; t < s->triangle_count; t++)
-        if (s->triangle[t][0] < EYES_END || s->triangle[t][0] >= FILM_END)
+        if (s->triangle[t][0] < EYES_END)
             memmove(s->triangle[kept++], s->triangle[t], sizeof *s->triangle);
     s->triangle_count = kept;
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* See marked.h. */
+#include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -170,5 +172,10 @@ fap_err marked_add_shape(fap_bank_builder *b, const char *given, const float (*d
         return fap_bank_builder_key(b, FAP_KEY_EXPRESSION, expression, name, delta);
     if (viseme)
         return fap_bank_builder_key(b, FAP_KEY_VISEME, viseme, name, delta);
-    return fap_bank_builder_key(b, FAP_KEY_UNIT, 0, shape >= 0 ? fap_arkit_name(shape) : name, delta);
+    char unit[64];
+    snprintf(unit, sizeof unit, "%s", shape >= 0 ? fap_arkit_name(shape) : name);
+    if (shape >= 0)
+        unit[0] = (char)tolower(
+            (unsigned char)unit[0]); /* a bank's units are called as Apple's, not as Live Link's columns */
+    return fap_bank_builder_key(b, FAP_KEY_UNIT, 0, unit, delta);
 }

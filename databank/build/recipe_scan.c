@@ -8,6 +8,7 @@
 #include <fap/studio/retarget.h>
 
 #include "databank/build/recipe_state.h"
+#include "databank/range/range_file.h"
 
 typedef struct scanned {
     fap_surface *surface;
@@ -22,6 +23,24 @@ static fap_err blame(const recipe *r, const char *file, fap_err err, const char 
     return err;
 }
 
+/* A range image's pictures are in the folder of its camera. */
+typedef struct beside {
+    const recipe *r;
+    const char *camera;
+} beside;
+
+static fap_err read_beside(void *user, const char *name, uint8_t **data, size_t *size)
+{
+    const beside *b = user;
+    const char *slash = strrchr(b->camera, '/');
+    char path[1024];
+    const int n =
+        snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - b->camera) + 1 : 0, b->camera, name);
+
+    return n > 0 && (size_t)n < sizeof path ? b->r->files->read(b->r->files->user, path, data, size)
+                                            : FAP_E_ARG;
+}
+
 static fap_err read_surface(const recipe *r, const char *file, fap_surface **out)
 {
     char where[FAP_ERROR_TEXT_SIZE] = "";
@@ -31,6 +50,10 @@ static fap_err read_surface(const recipe *r, const char *file, fap_surface **out
 
     if (err == FAP_OK) {
         err = fap_surface_read(out, data, size, NULL, where);
+        if (err == FAP_E_UNKNOWN_FORMAT && range_file_may_be(data, size)) {
+            const range_folder folder = { read_beside, &(beside){ r, file } };
+            err = range_file_read(out, &folder, data, size, where);
+        }
         free(data);
     }
     return err == FAP_OK ? err : blame(r, file, err == FAP_E_UNSUPPORTED ? FAP_E_DATA : err, where);

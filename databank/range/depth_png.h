@@ -10,4 +10,7 @@
 /* @depth is malloc'ed. FAP_E_UNKNOWN_FORMAT no PNG; FAP_E_DATA damaged, or not grey; FAP_E_LIMIT; FAP_E_UNSUPPORTED no libpng. */
 fap_err depth_png_read(float **depth, uint32_t *columns, uint32_t *rows, const uint8_t *data, size_t size);
 
+/* Any PNG as red, green and blue; @rgb is malloc'ed. */
+fap_err colour_png_read(uint8_t **rgb, uint32_t *columns, uint32_t *rows, const uint8_t *data, size_t size);
+
 #endif

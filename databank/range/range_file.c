@@ -10,7 +10,6 @@
 #include "common/file.h"
 #include "databank/range/depth_png.h"
 #include "databank/range/range_file.h"
-#include "player/render/image.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -19,32 +18,22 @@ static const size_t most = (size_t)256 << 20;
 static fap_err blame(const char *file, fap_err err, char *where)
 {
     snprintf(where, FAP_ERROR_TEXT_SIZE, "%.100s: %.120s", file,
-             err == FAP_E_IO && errno      ? strerror(errno)
-             : err == FAP_E_UNKNOWN_FORMAT ? "neither a grey PNG nor a PFM"
-             : err == FAP_E_UNSUPPORTED    ? "this fapbank was built without libpng"
-                                           : fap_strerror(err));
+             err == FAP_E_IO && errno ? strerror(errno)
+             : err == FAP_E_UNKNOWN_FORMAT
+                 ? "no picture that is known: depth is a grey PNG or a PFM, colour a PNG"
+             : err == FAP_E_UNSUPPORTED ? "this fapbank was built without libpng"
+                                        : fap_strerror(err));
     return err == FAP_E_UNKNOWN_FORMAT ? FAP_E_DATA : err;
 }
 
-static int beside(const char *camera, const char *name, char path[PATH_SIZE])
+static fap_err read_depth(const range_folder *folder, const char *name, fap_range_image *im, char *where)
 {
-    const char *slash = strrchr(camera, '/');
-    const int n = snprintf(path, PATH_SIZE, "%.*s%s", slash ? (int)(slash - camera) + 1 : 0, camera, name);
-
-    return n > 0 && n < PATH_SIZE;
-}
-
-static fap_err read_depth(const char *camera, const char *name, fap_range_image *im, char *where)
-{
-    char path[PATH_SIZE];
     uint8_t *data;
     size_t size;
     float *depth = NULL;
 
-    if (!beside(camera, name, path))
-        return FAP_E_ARG;
     errno = 0;
-    fap_err err = file_read(path, most, &data, &size);
+    fap_err err = folder->read(folder->user, name, &data, &size);
     if (err == FAP_OK) {
         err = depth_png_read(&depth, &im->columns, &im->rows, data, size);
         if (err == FAP_E_UNKNOWN_FORMAT || err == FAP_E_UNSUPPORTED) {
@@ -57,33 +46,24 @@ static fap_err read_depth(const char *camera, const char *name, fap_range_image 
     return err == FAP_OK ? err : blame(name, err, where);
 }
 
-/* Three bytes a pixel out of four. */
-static fap_err read_colour(const char *camera, const char *name, fap_range_image *im, uint8_t **rgb,
+static fap_err read_colour(const range_folder *folder, const char *name, fap_range_image *im, uint8_t **rgb,
                            char *where)
 {
-    char path[PATH_SIZE];
-    image picture;
+    uint8_t *data;
+    size_t size;
 
-    if (!beside(camera, name, path))
-        return FAP_E_ARG;
-    fap_err err = image_read_png(&picture, path);
-    if (err != FAP_OK) {
-        snprintf(where, FAP_ERROR_TEXT_SIZE, "%.100s: %.120s", name,
-                 err == FAP_E_NOT_FOUND ? "no such file" : "no PNG that can be read");
-        return err == FAP_E_UNSUPPORTED ? err : FAP_E_DATA;
+    errno = 0;
+    fap_err err = folder->read(folder->user, name, &data, &size);
+    if (err == FAP_OK) {
+        err = colour_png_read(rgb, &im->colour_columns, &im->colour_rows, data, size);
+        free(data);
     }
-    const size_t n = (size_t)picture.width * (size_t)picture.height;
-    *rgb = malloc(3 * n);
-    for (size_t i = 0; *rgb && i < n; i++)
-        memcpy(*rgb + 3 * i, picture.rgba + 4 * i, 3);
     im->rgb = (const uint8_t(*)[3]) * rgb;
-    im->colour_columns = (uint32_t)picture.width;
-    im->colour_rows = (uint32_t)picture.height;
-    image_free(&picture);
-    return *rgb ? FAP_OK : FAP_E_NOMEM;
+    return err == FAP_OK ? err : blame(name, err, where);
 }
 
-fap_err range_file_read(fap_surface **out, const char *path, const void *text, size_t size, char *where)
+fap_err range_file_read(fap_surface **out, const range_folder *folder, const void *text, size_t size,
+                        char *where)
 {
     fap_range_camera camera;
     fap_range_image im = { 0 };
@@ -92,9 +72,9 @@ fap_err range_file_read(fap_surface **out, const char *path, const void *text, s
     *out = NULL;
     fap_err err = fap_range_camera_read(&camera, text, size, where);
     if (err == FAP_OK)
-        err = read_depth(path, camera.depth, &im, where);
+        err = read_depth(folder, camera.depth, &im, where);
     if (err == FAP_OK && *camera.colour)
-        err = read_colour(path, camera.colour, &im, &rgb, where);
+        err = read_colour(folder, camera.colour, &im, &rgb, where);
     if (err == FAP_OK) {
         err = fap_range_surface(out, &im, &camera, NULL);
         if (err != FAP_OK)
@@ -104,4 +84,31 @@ fap_err range_file_read(fap_surface **out, const char *path, const void *text, s
     free((void *)(uintptr_t)im.depth);
     free(rgb);
     return err;
+}
+
+/* --- files --- */
+
+static fap_err read_beside(void *user, const char *name, uint8_t **data, size_t *size)
+{
+    const char *camera = user, *slash = strrchr(camera, '/');
+    char path[PATH_SIZE];
+    const int n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - camera) + 1 : 0, camera, name);
+
+    return n > 0 && n < PATH_SIZE ? file_read(path, most, data, size) : FAP_E_ARG;
+}
+
+int range_file_may_be(const uint8_t *data, size_t size)
+{
+    size_t i = 0;
+
+    while (i < size && (data[i] == ' ' || data[i] == '\t' || data[i] == '\r' || data[i] == '\n'))
+        i++;
+    return i < size && data[i] == '{';
+}
+
+fap_err range_file_read_beside(fap_surface **out, const char *path, const void *text, size_t size,
+                               char *where)
+{
+    const range_folder folder = { read_beside, (char *)(uintptr_t)path };
+    return range_file_read(out, &folder, text, size, where);
 }

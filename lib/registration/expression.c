@@ -293,11 +293,15 @@ static fap_err bring_head(work *w)
 
 /* Of a skin that was drawn to the scan bending as little as it must: it is smooth already. */
 static const int smooth_steps = 3;
+/* Of a range image's samples, as the paper has it. */
+static const int yano_steps = 30;
 
 /* Each step goes that share of the way to the mean of the neighbours (Yano & Harada 2009, eq. in 4.1). */
 static fap_err smooth(const work *w, float (*motion)[3])
 {
-    const int steps = w->cfg->smooth_steps >= 0 ? w->cfg->smooth_steps : smooth_steps;
+    const int steps = w->cfg->smooth_steps >= 0                 ? w->cfg->smooth_steps
+                      : w->cfg->fit.method == FAP_REGISTER_YANO ? yano_steps
+                                                                : smooth_steps;
     const uint32_t n = w->mesh->vertex_count;
     surface_edges e;
     float(*sum)[3] = fap_mem_calloc(&w->alloc, n, sizeof *sum);

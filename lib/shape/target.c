@@ -30,7 +30,8 @@ fap_err fap_target_add(const char *text, float weight, float (*delta)[3], uint32
     for (int n = 1; *text; n++) {
         const fap_err err = take_line(text, weight, delta, count);
         if (err) {
-            *line = n;
+            if (line)
+                *line = n;
             return err;
         }
         text += strcspn(text, "\n");

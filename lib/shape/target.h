@@ -8,7 +8,7 @@
 
 #include <fap/error.h>
 
-/* delta[vertex] += weight * (dx dy dz). FAP_E_SYNTAX or an index beyond @p count: FAP_E_DATA; @p line says
+/* delta[vertex] += weight * (dx dy dz). FAP_E_SYNTAX or an index beyond @p count: FAP_E_DATA; @p line (may be NULL) says
  * where. */
 fap_err fap_target_add(const char *text, float weight, float (*delta)[3], uint32_t count, int *line);
 

@@ -57,3 +57,11 @@ sed 's/depth.png/colour.png/' "$T/png.json" >"$T/bad.json"; bad; says 'colour.pn
 printf '8.3,1,1,px\n' >"$T/corner.csv"
 expect 1 "$B/fapbank" fit "$T/png.json" --landmarks "$T/corner.csv" --bank builtin -o "$T/bad.obj"
 says 'corner.csv: line 1'
+
+# Range images in a recipe, as the paper builds its visemes: neutral, and a mouth that is open.
+mkdir "$T/aa"
+python3 tests/cli/range_scan.py "$S/ict_a_viseme10_A.ply" "$S/ict_a_viseme10_A_points.csv" "$T/aa"
+printf '%s\n' "fapbank recipe" "like builtin" "method yano" "scan png.json pixels.csv" "viseme aa aa/pfm.json aa/pixels.csv" >"$T/car.recipe"
+expect 0 "$B/fapbank" build "$T/car.recipe" --json -o "$T/car.fbank"
+python3 -c 'import json, sys; s = json.load(open(sys.argv[1]))["scans"][1]
+assert s["moves_mm"] > 12 and s["masked_vertices"] > 20 and s["icp_after_mm"] < 1, s' "$T/out" || fail "no open mouth"

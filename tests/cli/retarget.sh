@@ -51,10 +51,26 @@ awk -F, 'NR == FNR { if (FNR > 1) { x[FNR - 2] = $4; y[FNR - 2] = $5; z[FNR - 2]
 expect 0 "$B/fapbank" retarget builtin --from "$T/shapes" --landmarks "$T/marks.csv" -o "$T/spoken.fbank" --json
 says '"motions": 1'
 expect 0 "$B/fapbank" info "$T/spoken.fbank"
-says 'JawOpen|unit'
+says 'unit +jawOpen'
 
 # The GLB has a metre as its unit and its vertices in the bank's order.
 expect 0 "$B/fapbank" retarget builtin --from "$T/own.glb" --landmarks "$T/marks.csv" --unit m -o "$T/own.fbank" --json
 says '"motions": [5-9][0-9]'
 expect 0 "$B/fapbank" info "$T/own.fbank"
-says 'joy|expression'
+says 'expression joy'
+says 'unit +jawOpen'
+
+# The same faces as banks of their own structure: a folder, a file; every part and point found again.
+cp "$T/laid.obj" "$T/shapes/neutral.obj"
+expect 2 "$B/fapbank" build "$T/shapes" -o "$T/folder.fbank"
+says '--landmarks'
+expect 0 "$B/fapbank" build "$T/shapes" --landmarks "$T/marks.csv" --bank builtin -o "$T/folder.fbank"
+expect 0 "$B/fapbank" info "$T/folder.fbank"
+says 'unit +jawOpen .* 8\.0 mm'
+says 'points +84 of 84'
+says 'eye_left [1-9].*teeth_lower [1-9]'
+expect 0 "$B/fapbank" build "$T/own.glb" --landmarks "$T/marks.csv" --bank builtin --unit m -o "$T/file.fbank"
+expect 0 "$B/fapbank" info "$T/file.fbank"
+says 'expression joy'
+expect 1 "$B/fapbank" build "$T/own.glb" --landmarks "$T/odd.csv" --bank builtin -o "$T/no.fbank"
+[ ! -e "$T/no.fbank" ] || fail "a face without landmarks left a bank"
