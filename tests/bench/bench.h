@@ -152,13 +152,16 @@ double bench_retarget_error_mm(void);
 double bench_retarget_other_error_mm(void);
 
 /* A face laid onto scans whose truth is known; X(name, method). */
-#define BENCH_REGISTRATION(X) X(auto, FAP_REGISTER_AUTO) X(zhu, FAP_REGISTER_ZHU) X(yano, FAP_REGISTER_YANO) X(lorenzo, FAP_REGISTER_LORENZO)
+#define BENCH_REGISTRATION(X)                                                                                \
+    X(auto, FAP_REGISTER_AUTO)                                                                               \
+    X(zhu, FAP_REGISTER_ZHU) X(yano, FAP_REGISTER_YANO) X(lorenzo, FAP_REGISTER_LORENZO)
 #define X(name, method)                                                                                      \
     double bench_fit_s_##name(void);                                                                         \
     double bench_fit_surface_rms_mm_##name(void);                                                            \
     double bench_fit_correspondence_rms_mm_##name(void);                                                     \
     double bench_fit_folds_##name(void);                                                                     \
-    double bench_fit_wrong_lip_##name(void);
+    double bench_fit_wrong_lip_##name(void);                                                                 \
+    double bench_fit_wrong_lip_clear_##name(void);
 BENCH_REGISTRATION(X)
 #undef X
 

@@ -259,7 +259,7 @@ static void free_person(person *p)
 
 typedef struct outcome {
     double seconds, surface2, correspondence2;
-    uint32_t count, folds, wrong;
+    uint32_t count, folds, wrong, clearly_wrong;
 } outcome;
 
 static uint8_t across(uint8_t mask)
@@ -277,6 +277,33 @@ static int is_wrong(const stage *s, uint32_t v, const surface_hit *h)
         if (h->share[c] > 0.01F)
             there |= s->mask[s->triangle[h->triangle][c]];
     return (there & across(s->mask[v])) && !(there & s->mask[v]);
+}
+
+/* The truth's triangles of one side of a slit. */
+typedef struct own_side {
+    const stage *s;
+    uint8_t mask;
+} own_side;
+
+static int is_own(const void *user, uint32_t t)
+{
+    const own_side *o = user;
+
+    for (int c = 0; c < 3; c++)
+        if (o->s->mask[o->s->triangle[t][c]] & o->mask)
+            return 1;
+    return 0;
+}
+
+/* By more than what the scan's noise can hide where lips touch. */
+static int is_clearly_wrong(const stage *s, const surface_index *truth, const float at[3], uint32_t v,
+                            const surface_hit *other)
+{
+    const own_side side = { s, s->mask[v] };
+    surface_hit own;
+
+    return !surface_index_nearest(truth, at, 100, is_own, &side, &own) ||
+           (double)own.distance > (double)other->distance + noise_mm;
 }
 
 static double turn(const float (*at)[3], const stage *s, const surface_edge *e)
@@ -331,7 +358,10 @@ static int judge(const stage *s, person *p, const fap_registration *r, outcome *
             continue;
         o->count++;
         o->surface2 += (double)h.distance * (double)h.distance;
-        o->wrong += (uint32_t)is_wrong(s, v, &h);
+        if (is_wrong(s, v, &h)) {
+            o->wrong++;
+            o->clearly_wrong += (uint32_t)is_clearly_wrong(s, truth, at[v], v, &h);
+        }
         for (int a = 0; a < 3; a++)
             o->correspondence2 += pow((double)at[v][a] - (double)p->truth[v][a], 2);
     }
@@ -468,6 +498,11 @@ static const outcome *outcome_of(fap_registration_method method)
     {                                                                                                        \
         const outcome *o = outcome_of(method);                                                               \
         return o ? (double)o->wrong / PEOPLE : -1;                                                           \
+    }                                                                                                        \
+    double bench_fit_wrong_lip_clear_##name(void)                                                            \
+    {                                                                                                        \
+        const outcome *o = outcome_of(method);                                                               \
+        return o ? (double)o->clearly_wrong / PEOPLE : -1;                                                   \
     }
 BENCH_REGISTRATION(X)
 #undef X
