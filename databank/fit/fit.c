@@ -118,6 +118,57 @@ static int ends_with(const char *path, const char *ending)
     return dot && !strcasecmp(dot, ending);
 }
 
+/* Triangles of the front, and the vertices that they have, moved up in their order. */
+static void keep_front(fap_surface *s, const uint8_t *front, uint32_t *place)
+{
+    uint32_t vertices = 0, triangles = 0;
+
+    for (uint32_t i = 0; i < s->vertex_count; i++) {
+        if (!front[i])
+            continue;
+        memmove(s->position[vertices], s->position[i], sizeof *s->position);
+        if (s->uv)
+            memmove(s->uv[vertices], s->uv[i], sizeof *s->uv);
+        if (s->colour)
+            memmove(s->colour[vertices], s->colour[i], sizeof *s->colour);
+        place[i] = vertices++;
+    }
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        const uint32_t *v = s->triangle[t];
+        if (!front[v[0]] || !front[v[1]] || !front[v[2]])
+            continue;
+        const uint32_t moved[3] = { place[v[0]], place[v[1]], place[v[2]] };
+        memcpy(s->triangle[triangles++], moved, sizeof moved);
+    }
+    s->vertex_count = vertices;
+    s->triangle_count = triangles;
+}
+
+static fap_err write_front(const fit_work *w, const fap_surface *face, const fap_writer *out)
+{
+    uint32_t *place = calloc(face->vertex_count, sizeof *place);
+    fap_surface *s = NULL;
+
+    fap_err err =
+        place ? fap_surface_create(&s, face->vertex_count, face->triangle_count, NULL) : FAP_E_NOMEM;
+    if (err == FAP_OK) {
+        memcpy(s->position, face->position, face->vertex_count * sizeof *s->position);
+        memcpy(s->triangle, face->triangle, face->triangle_count * sizeof *s->triangle);
+        s->uv = face->uv ? malloc(face->vertex_count * sizeof *s->uv) : NULL;
+        s->colour = face->colour ? malloc(face->vertex_count * sizeof *s->colour) : NULL;
+        if (s->uv)
+            memcpy(s->uv, face->uv, face->vertex_count * sizeof *s->uv);
+        if (s->colour)
+            memcpy(s->colour, face->colour, face->vertex_count * sizeof *s->colour);
+        keep_front(s, fap_registration_front(w->registration), place);
+        err =
+            ends_with(w->opt->output, ".ply") ? fap_surface_write_ply(s, out) : fap_surface_write_obj(s, out);
+    }
+    fap_surface_close(&s);
+    free(place);
+    return err;
+}
+
 /* The face as a surface: the generic face's vertices in their order, with the scan's texture coordinates, else the generic face's
  * where it is no finer. */
 static fap_err write_surface(const fit_work *w, const fap_writer *out)
@@ -129,6 +180,8 @@ static fap_err write_surface(const fit_work *w, const fap_writer *out)
            : mesh->uv && s.vertex_count == mesh->vertex_count ? (float(*)[2])(uintptr_t)mesh->uv
                                                               : NULL;
     s.colour = w->colour;
+    if (w->opt->face_only)
+        return write_front(w, &s, out);
     return ends_with(w->opt->output, ".ply") ? fap_surface_write_ply(&s, out)
                                              : fap_surface_write_obj(&s, out);
 }

@@ -50,6 +50,9 @@ static const char help[] =
     "head)\n"
     "      --pin-error MM    how far off a landmark may be (1)\n"
     "      --reach MM        what is farther from the laid face than this is something else (12)\n"
+    "      --face-only       without ears, top and back of the head, the same triangles on everybody; for -o "
+    "FACE.obj "
+    "or .ply\n"
     "      --pictures DIR    points, before, after, distances, wireframe as PNG\n"
     "      --gl NAME         osmesa, egl or glfw: OpenGL by this library\n"
     "      --json            the report as JSON on standard output\n"
@@ -75,6 +78,7 @@ enum {
     OPT_UNIT,
     OPT_PIN_ERROR,
     OPT_REACH,
+    OPT_FACE_ONLY,
     OPT_PICTURES,
     OPT_GL,
     OPT_JSON,
@@ -96,6 +100,7 @@ static const struct option long_options[] = {
     { "unit", required_argument, NULL, OPT_UNIT },
     { "pin-error", required_argument, NULL, OPT_PIN_ERROR },
     { "reach", required_argument, NULL, OPT_REACH },
+    { "face-only", no_argument, NULL, OPT_FACE_ONLY },
     { "pictures", required_argument, NULL, OPT_PICTURES },
     { "gl", required_argument, NULL, OPT_GL },
     { "json", no_argument, NULL, OPT_JSON },
@@ -212,6 +217,7 @@ static int parse_option(fit_options *opt, int c, const char *arg)
     case OPT_UNIT: return parse_unit(opt, arg);
     case OPT_PIN_ERROR: return number(opt, "pin-error", arg, 0.01, 50, &opt->fit.pin_error_mm);
     case OPT_REACH: return number(opt, "reach", arg, 0.5, 200, &opt->fit.reach_mm);
+    case OPT_FACE_ONLY: opt->face_only = 1; return 1;
     case OPT_PICTURES: opt->pictures = arg; return 1;
     case OPT_GL: return parse_gl(opt, arg);
     case OPT_JSON: opt->json = 1; return 1;
@@ -242,6 +248,8 @@ static int check(fit_options *opt)
         tool_error("--subdivide belongs to --method zhu and yano");
     else if (opt->fit.subdivisions && !strcasecmp(strrchr(opt->output, '.'), ".fbank"))
         tool_error("--subdivide: a bank's motions are those of the face as it is; write FACE.obj or .ply");
+    else if (opt->face_only && !strcasecmp(strrchr(opt->output, '.'), ".fbank"))
+        tool_error("--face-only: a bank's face is whole; write FACE.obj or .ply");
     else {
         opt->minor = opt->minor < 0 ? opt->fit.method == FAP_REGISTER_ZHU : opt->minor;
         return 1;

@@ -11,7 +11,8 @@ typedef struct fit_options {
     const char *pictures; /* a folder; NULL: none */
     const char *gl;       /* how they are drawn; NULL: the first way that works */
     fap_registration_config fit;
-    int minor; /* 1: minor points follow the landmarks */
+    int minor;     /* 1: minor points follow the landmarks */
+    int face_only; /* 1: without ears, top and back of the head */
     int json;
     int exit_status; /* when parsing says to stop */
 } fit_options;

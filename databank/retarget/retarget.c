@@ -13,6 +13,7 @@
 #include "common/json.h"
 #include "common/tool.h"
 #include "databank/build/marked.h"
+#include "databank/drawing.h"
 #include "databank/inputs.h"
 #include "databank/retarget/retarget.h"
 #include "databank/retarget/retarget_options.h"
@@ -36,7 +37,26 @@ static int read_bank(work *w, fault *f)
            fap_generic_of_bank(&w->generic, w->bank, NULL) == FAP_OK;
 }
 
+static int open_folder(const work *w, fault *f)
+{
+    return !w->opt->pictures || drawing_open_folder(&(drawing){ w->opt->pictures, NULL, f });
+}
+
 /* --- the same structure --- */
+
+/* The bank's face, and the one that its motions come to. */
+static int draw_faces(const work *w, fault *f)
+{
+    const drawing d = { w->opt->pictures, NULL, f };
+    fap_bank *left = NULL, *right = NULL;
+
+    const int ok = drawing_of_face(&d, &left, w->bank, w->generic.position, NULL) &&
+                   drawing_of_face(&d, &right, w->bank, (const float(*)[3])w->face->position, NULL) &&
+                   drawing_save_pair(&d, left, right, "faces");
+    fap_bank_close(&left);
+    fap_bank_close(&right);
+    return ok;
+}
 
 static int retarget_to(work *w, fault *f)
 {
@@ -53,7 +73,9 @@ static int retarget_to(work *w, fault *f)
     const fap_err err = fap_bank_retarget(&w->out, w->bank, (const float(*)[3])w->face->position,
                                           slash ? slash + 1 : w->opt->to, &w->scale);
     w->keys = fap_bank_key_count(w->bank);
-    return err == FAP_OK || inputs_blame(f, w->opt->to, err, "");
+    if (err != FAP_OK)
+        return inputs_blame(f, w->opt->to, err, "");
+    return !w->opt->pictures || draw_faces(w, f);
 }
 
 /* --- another structure --- */
@@ -98,6 +120,39 @@ static void turn_source(work *w)
     }
 }
 
+/* --- pictures --- */
+
+/* @n places at rest, and moved. */
+static float (*moved(const float (*rest)[3], const float (*delta)[3], uint32_t n))[3]
+{
+    float(*out)[3] = malloc(n * sizeof *out);
+
+    for (uint32_t i = 0; out && i < 3 * n; i++)
+        out[i / 3][i % 3] = rest[i / 3][i % 3] + delta[i / 3][i % 3];
+    return out;
+}
+
+/* The source with its shape, and the bank's face with the motion that came of it. */
+static int draw_shape(const work *w, int shape, const float (*delta)[3], fault *f)
+{
+    const drawing d = { w->opt->pictures, NULL, f };
+    const fap_surface *n = w->shapes.neutral;
+    float(*source)[3] =
+        moved((const float(*)[3])n->position, (const float(*)[3])w->shapes.delta[shape], n->vertex_count);
+    float(*own)[3] = moved(w->generic.position, delta, w->generic.vertex_count);
+    fap_bank *left = NULL, *right = NULL;
+
+    const int ok = (source && own) || fault_set(f, EXIT_DATA, "out of memory");
+    const int drawn = ok && drawing_of_scan(&d, &left, w->bank, n, (const float(*)[3])source) &&
+                      drawing_of_face(&d, &right, w->bank, (const float(*)[3])own, NULL) &&
+                      drawing_save_pair(&d, left, right, w->shapes.name[shape]);
+    fap_bank_close(&left);
+    fap_bank_close(&right);
+    free(source);
+    free(own);
+    return drawn;
+}
+
 static int add_motions(work *w, fault *f)
 {
     const uint32_t n = w->generic.vertex_count;
@@ -119,6 +174,8 @@ static int add_motions(work *w, fault *f)
             err = fap_motion_carry(w->bank, w->generic.position, delta);
         if (err == FAP_OK)
             err = marked_add_shape(w->out, w->shapes.name[s], (const float(*)[3])delta);
+        if (err == FAP_OK && w->opt->pictures && !draw_shape(w, s, (const float(*)[3])delta, f))
+            err = FAP_E_IO;
         w->keys++;
     }
     free(use);
@@ -216,7 +273,8 @@ int retarget_run(int argc, char **argv)
         return opt.exit_status;
     }
     w->opt = &opt;
-    const int ok = read_bank(w, &f) && (opt.to ? retarget_to : retarget_from)(w, &f) && write_bank(w, &f);
+    const int ok = read_bank(w, &f) && open_folder(w, &f) && (opt.to ? retarget_to : retarget_from)(w, &f) &&
+                   write_bank(w, &f);
     if (ok)
         (opt.json ? say_json : say)(w);
     else

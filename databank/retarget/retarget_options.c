@@ -27,6 +27,7 @@ static const char help[] =
     "      --landmarks FILE  where the face is on its neutral one, as for fapbank fit\n"
     "      --unit U          of SHAPES: mm, cm, m or millimetres in one unit (the one that makes it a head)\n"
     "  -o, --output FILE     the new bank\n"
+    "      --pictures DIR    each motion, on the face that it comes from and on the one that it comes to\n"
     "      --json            the report as JSON on standard output\n"
     "      --quiet           errors only\n"
     "      --help\n"
@@ -38,18 +39,14 @@ static const char help[] =
     "\n"
     "Exit: 0 success, 1 bad data, 2 bad usage, 3 a library is missing. docs/shape.md tells more.\n";
 
-enum { OPT_TO = 256, OPT_FROM, OPT_LANDMARKS, OPT_UNIT, OPT_JSON, OPT_QUIET, OPT_HELP };
+enum { OPT_TO = 256, OPT_FROM, OPT_LANDMARKS, OPT_UNIT, OPT_PICTURES, OPT_JSON, OPT_QUIET, OPT_HELP };
 
 static const struct option long_options[] = {
-    { "output", required_argument, NULL, 'o' },
-    { "to", required_argument, NULL, OPT_TO },
-    { "from", required_argument, NULL, OPT_FROM },
-    { "landmarks", required_argument, NULL, OPT_LANDMARKS },
-    { "unit", required_argument, NULL, OPT_UNIT },
-    { "json", no_argument, NULL, OPT_JSON },
-    { "quiet", no_argument, NULL, OPT_QUIET },
-    { "help", no_argument, NULL, OPT_HELP },
-    { NULL, 0, NULL, 0 },
+    { "output", required_argument, NULL, 'o' },    { "to", required_argument, NULL, OPT_TO },
+    { "from", required_argument, NULL, OPT_FROM }, { "landmarks", required_argument, NULL, OPT_LANDMARKS },
+    { "unit", required_argument, NULL, OPT_UNIT }, { "pictures", required_argument, NULL, OPT_PICTURES },
+    { "json", no_argument, NULL, OPT_JSON },       { "quiet", no_argument, NULL, OPT_QUIET },
+    { "help", no_argument, NULL, OPT_HELP },       { NULL, 0, NULL, 0 },
 };
 
 static int usage(retarget_options *opt)
@@ -80,6 +77,7 @@ static int parse_option(retarget_options *opt, int c, const char *arg)
     case OPT_FROM: opt->from = arg; return 1;
     case OPT_LANDMARKS: opt->landmarks = arg; return 1;
     case OPT_UNIT: return parse_unit(opt, arg);
+    case OPT_PICTURES: opt->pictures = arg; return 1;
     case OPT_JSON: opt->json = 1; return 1;
     case OPT_QUIET: tool_quiet = 1; return 1;
     case OPT_HELP: fputs(help, stdout); return 0;

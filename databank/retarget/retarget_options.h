@@ -8,6 +8,7 @@ typedef struct retarget_options {
     const char *to;               /* another face of the bank's structure; NULL: not that */
     const char *from, *landmarks; /* shapes of another structure, and where the face is on them */
     double mm_per_unit;           /* of --from; 0: found */
+    const char *pictures;         /* a folder; NULL: none */
     int json;
     int exit_status; /* when parsing says to stop */
 } retarget_options;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "registration/cylinder.h"
 #include "registration/laying.h"
 #include "registration/measure.h"
 #include "surface/normals.h"
@@ -13,6 +14,7 @@
 struct fap_registration {
     fap_registration_report report;
     fap_surface *surface;
+    uint8_t *front;
     rigid_pose pose;
     double scale, size; /* scan to generic; generic to the person */
     fap_allocator alloc;
@@ -441,9 +443,14 @@ static fap_err make_surface(const laying *l, fap_registration *r)
     const fap_generic *g = l->generic;
     const fap_err err = fap_surface_create(&r->surface, g->vertex_count, g->triangle_count, l->alloc);
 
-    if (err == FAP_OK)
-        memcpy(r->surface->triangle, g->triangle, g->triangle_count * sizeof *g->triangle);
-    return err;
+    if (err != FAP_OK)
+        return err;
+    memcpy(r->surface->triangle, g->triangle, g->triangle_count * sizeof *g->triangle);
+    r->front = fap_mem_calloc(l->alloc, g->vertex_count, 1);
+    const cylinder axis = cylinder_around(g->position, g->vertex_count);
+    for (uint32_t i = 0; r->front && i < g->vertex_count; i++)
+        r->front[i] = (uint8_t)(laying_is_skin(l, i) && cylinder_is_face(&axis, g->position[i]));
+    return r->front ? FAP_OK : FAP_E_NOMEM;
 }
 
 static fap_err run(laying *l)
@@ -501,6 +508,7 @@ void fap_registration_close(fap_registration **r)
         return;
     const fap_allocator alloc = (*r)->alloc;
     fap_surface_close(&(*r)->surface);
+    fap_mem_free(&alloc, (*r)->front);
     fap_mem_free(&alloc, *r);
     *r = NULL;
 }
@@ -513,6 +521,11 @@ const float (*fap_registration_positions(const fap_registration *r))[3]
 const fap_registration_report *fap_registration_report_get(const fap_registration *r)
 {
     return &r->report;
+}
+
+const uint8_t *fap_registration_front(const fap_registration *r)
+{
+    return r->front;
 }
 
 const fap_surface *fap_registration_surface(const fap_registration *r)

@@ -74,3 +74,8 @@ expect 0 "$B/fapbank" info "$T/file.fbank"
 says 'expression joy'
 expect 1 "$B/fapbank" build "$T/own.glb" --landmarks "$T/odd.csv" --bank builtin -o "$T/no.fbank"
 [ ! -e "$T/no.fbank" ] || fail "a face without landmarks left a bank"
+status=0
+"$B/fapbank" retarget builtin --from "$T/shapes" --landmarks "$T/marks.csv" -o "$T/shown.fbank" --pictures "$T/pictures" >"$T/out" 2>"$T/err" || status=$?
+[ "$status" -eq 3 ] && skip "no OpenGL here: $(tail -n 1 "$T/err")"
+[ "$status" -eq 0 ] || fail "pictures give $status: $(cat "$T/err")"
+[ "$(head -c 4 "$T/pictures/jawOpen.png" | tail -c 3)" = PNG ] || fail "no picture of jawOpen"

@@ -43,3 +43,12 @@ expect 0 "$B/fapplay" tests/assets/moments.fap --bank "$T/anna.fbank" -o "$T/poi
 expect 0 "$B/fapbank" fit "$scan" --landmarks "$points" --bank builtin --method zhu --subdivide 2 -o "$T/fine.ply" --json
 coarse=$(grep -c '^f ' "$T/anna.obj")
 grep -aq "element face $((16 * coarse))" "$T/fine.ply" || fail "not sixteen times as fine"
+
+# The face alone: the same triangles on everybody, whatever the method.
+for method in auto zhu; do
+    expect 0 "$B/fapbank" fit "$scan" --landmarks "$points" --bank builtin --method $method --face-only -o "$T/face_$method.obj"
+    grep '^f ' "$T/face_$method.obj" >"$T/triangles_$method"
+done
+cmp "$T/triangles_auto" "$T/triangles_zhu" || fail "--face-only leaves out other triangles by another method"
+[ "$(wc -l <"$T/triangles_auto")" -lt "$(grep -c '^f ' "$T/anna.obj")" ] || fail "--face-only leaves nothing out"
+expect 2 "$B/fapbank" fit "$scan" --landmarks "$points" --face-only -o "$T/x.fbank"

@@ -105,6 +105,11 @@ FAP_API void fap_registration_close(fap_registration **r);
 FAP_API const float (*fap_registration_positions(const fap_registration *r))[3];
 /** The face with its triangles; where it was subdivided, more than the generic one's, whose vertices are the first. */
 FAP_API const fap_surface *fap_registration_surface(const fap_registration *r);
+/**
+ * [vertices of fap_registration_surface()] 1: skin of the face; 0: ears, top and back of the head, and what is inside (Zhu 2006
+ * section 4.6). The same for every person that the generic face is laid onto.
+ */
+FAP_API const uint8_t *fap_registration_front(const fap_registration *r);
 FAP_API const fap_registration_report *fap_registration_report_get(const fap_registration *r);
 /** A place of the scan in the head's axes and millimetres. */
 FAP_API void fap_registration_to_head(const fap_registration *r, const float scan[3], float head_mm[3]);
