@@ -46,10 +46,10 @@ static void draw_head(const picking *w)
                  pick_description(p, p->asked), (unsigned)p->asked + 1, FAP_LABELS_MAJOR);
     canvas_text(w->sheet, 12, 25, 17, CANVAS_LEFT, text);
     canvas_colour(w->sheet, 0xa8b0bc, 1);
-    canvas_text(
-        w->sheet, 12, 48, 12, CANVAS_LEFT,
-        "Space: not to be seen   Backspace: back   arrows, R: turn the scan until the middle picture is its "
-        "face   Return: done   Escape: give up");
+    canvas_text(w->sheet, 12, 48, 12, CANVAS_LEFT,
+                "Space: not to be seen   Backspace: back   arrows, R: turn the scan until the middle picture "
+                "is its face   "
+                "+ -: nearer to the mouse, and back   Return: done   Escape: give up");
 }
 
 static void draw_cross(const picking *w, const double at[2], double arm)
