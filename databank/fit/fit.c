@@ -39,8 +39,8 @@ static fap_err follow_landmarks(fit_work *w)
         err = fap_labels_follow(&labels, w->bank, w->scan, place);
     for (uint32_t i = 0; err == FAP_OK && i < labels.count; i++) {
         const uint32_t v = labels.vertex[i];
-        if (place[i].state != FAP_LABEL_MET)
-            continue;
+        if (place[i].state != FAP_LABEL_MET || (w->generic.mask && w->generic.mask[v]))
+            continue; /* of a lip or a lid: a ray cannot tell which one it has met */
         fap_pin *pin = &w->pin[w->pin_count++];
         *pin = (fap_pin){ .vertex = { v, v, v }, .share = { 1, 0, 0 }, .trust = 1 };
         memcpy(pin->at, place[i].at, sizeof pin->at);

@@ -6,6 +6,8 @@
 #include <fap/studio/registration.h>
 
 #include "capture/rigid.h"
+#include "registration/cylinder.h"
+#include "registration/elastic.h"
 #include "registration/loop.h"
 #include "registration/warp.h"
 #include "surface/edges.h"
@@ -63,6 +65,10 @@ fap_err laying_bend(laying *l, warp_kernel kernel, double slack);
  * are those of the one before.
  */
 fap_err laying_subdivide(laying *l, int flat);
+/* [vertices] 1: skin of the generic face that nothing of it is in front of, seen from outside towards the axis. */
+fap_err laying_find_seen(const laying *l, const cylinder *axis, uint8_t *seen);
+/* Skin goes where it is pulled (weight 0: nowhere), and the rest of it bends along from where it is, as little as it must. */
+fap_err laying_sew(laying *l, const elastic_pull *pull);
 fap_err laying_fail(const laying *l, fap_err err, const char *text);
 
 /* The methods: l->at, from where the generic face is. */

@@ -15,24 +15,20 @@
 #include "registration/range_image.h"
 
 /* Gaps that are filled, in samples to either side. */
-enum { FILL_ROUNDS = 6, SEAM_ROUNDS = 80 };
-/* Skin is of the template where nothing is in front of it: this much is numbers' noise. */
-static const float seen_mm = 0.3F;
+enum { FILL_ROUNDS = 6 };
 /* Landmarks nearer than this to each other in the plane are one: a plate has one height there. */
 static const double one_place_mm = 0.4;
 /* How far the plate may stay off landmarks that are a millimetre off; with --pin-error 0.01 it meets them, as the paper's does. */
 static const double slack_per_mm2 = 300;
 /* Landmarks are off by about this, and so may the other side of a slit be. */
 static const double rim_mm = 2;
-/* The image draws; what bends where it does not, bends little. */
-static const double seam_stiffness = 0.05, seam_stretch = 0.3;
 
 typedef struct yano {
     laying *l;
     range_image image;
     cylinder axis; /* of the generic face */
     warp plate;
-    uint8_t *use;       /* [vertices] skin */
+    uint8_t *seen;      /* [vertices] skin that the image may show */
     elastic_pull *pull; /* [vertices] weight 0: not sampled */
     uint32_t sampled;
 } yano;
@@ -110,21 +106,6 @@ static fap_err open_plate(yano *y)
 
 /* --- sampling --- */
 
-/* Nothing of the generic face is before it, seen from where the image is. */
-static int is_seen(const yano *y, const surface_index *face, uint32_t i)
-{
-    const float *at = y->l->generic->position[i];
-    float out[3], from[3], back[3];
-    surface_hit h;
-
-    cylinder_outwards(&y->axis, at, out);
-    for (int a = 0; a < 3; a++) {
-        from[a] = at[a] + 300 * out[a];
-        back[a] = -out[a];
-    }
-    return !surface_index_ray(face, from, back, 300 - seen_mm, &h);
-}
-
 /*
  * The rim of a slit: what the image shows there is one lip or the other, and nobody can tell by it which. The sides of a slit come
  * from what is sampled behind its rim, each from its own.
@@ -172,45 +153,13 @@ static void sample(yano *y, uint32_t i)
 
 static fap_err sample_all(yano *y)
 {
-    const fap_generic *g = y->l->generic;
-    surface_index *face;
-    const fap_err err =
-        surface_index_open(&face, g->position, g->vertex_count, g->triangle, g->triangle_count);
+    const fap_err err = laying_find_seen(y->l, &y->axis, y->seen);
 
-    for (uint32_t i = 0; err == FAP_OK && i < g->vertex_count; i++)
-        if (y->use[i] && is_seen(y, face, i) && !is_at_slit(y, i))
+    for (uint32_t i = 0; err == FAP_OK && i < y->l->generic->vertex_count; i++)
+        if (y->seen[i] && !is_at_slit(y, i))
             sample(y, i);
-    surface_index_close(&face);
     if (err == FAP_OK && !y->sampled)
         return laying_fail(y->l, FAP_E_DATA, "nothing was scanned where the landmarks say that the face is");
-    return err;
-}
-
-/* --- what was not sampled --- */
-
-/* Bends from where the landmarks alone have put the face. */
-static fap_err sew(yano *y)
-{
-    laying *l = y->l;
-    const fap_generic *g = l->generic;
-    float(*rest)[3] = fap_mem_calloc(l->alloc, g->vertex_count, sizeof *rest);
-    elastic *skin = NULL;
-    const elastic_task task = { .pull = y->pull,
-                                .slide = 1,
-                                .stiffness = seam_stiffness,
-                                .stretch = seam_stretch,
-                                .rounds = SEAM_ROUNDS,
-                                .enough = 1e-3 };
-
-    if (!rest)
-        return FAP_E_NOMEM;
-    memcpy(rest, l->at, g->vertex_count * sizeof *rest);
-    const fap_err err = elastic_open(&skin, (const float(*)[3])rest, g->vertex_count, g->triangle,
-                                     g->triangle_count, &l->edges, y->use, l->alloc);
-    if (err == FAP_OK)
-        elastic_solve(skin, &task, l->at);
-    elastic_close(&skin);
-    fap_mem_free(l->alloc, rest);
     return err;
 }
 
@@ -222,12 +171,10 @@ static fap_err open(yano *y)
     const uint32_t n = l->generic->vertex_count;
 
     y->axis = cylinder_around(l->generic->position, n);
-    y->use = fap_mem_calloc(l->alloc, n, 1);
+    y->seen = fap_mem_calloc(l->alloc, n, 1);
     y->pull = fap_mem_calloc(l->alloc, n, sizeof *y->pull);
-    if (!y->use || !y->pull)
+    if (!y->seen || !y->pull)
         return FAP_E_NOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        y->use[i] = (uint8_t)laying_is_skin(l, i);
     const fap_err err = range_image_open(&y->image, l);
     return err == FAP_OK ? range_image_fill(&y->image, FILL_ROUNDS, l->alloc) : err;
 }
@@ -238,7 +185,7 @@ static void close(yano *y)
 
     range_image_close(&y->image, a);
     warp_close(&y->plate, a);
-    fap_mem_free(a, y->use);
+    fap_mem_free(a, y->seen);
     fap_mem_free(a, y->pull);
 }
 
@@ -260,7 +207,7 @@ fap_err laying_yano(laying *l)
     if (err == FAP_OK)
         err = laying_progress(l, 0.8);
     if (err == FAP_OK)
-        err = sew(&y);
+        err = laying_sew(l, y.pull);
     if (err == FAP_OK)
         laying_bring_inside(l);
     if (err == FAP_OK && y.image.filled)

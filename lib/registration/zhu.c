@@ -5,7 +5,8 @@
  * become 23,760, which is sixteen); then each vertex goes along a ray to the scan, about the head's axis or along its
  * normal, if that is not too far (4.5). What a scanner sees badly, ears, the top and the back of the head, is not projected
  * and can be left out (4.6). The affine part of the bending is ours: without it a head that is larger everywhere comes out
- * lumpy between the landmarks.
+ * lumpy between the landmarks; and what is not projected bends along with what is, as our generic face, unlike the thesis's, has an
+ * inside of lips and lids.
  */
 #include <string.h>
 
@@ -15,11 +16,6 @@
 #include "surface/normals.h"
 
 /* --- 4.5, 4.6 --- */
-
-static int is_face(const laying *l, const cylinder *c, uint32_t i)
-{
-    return laying_is_skin(l, i) && cylinder_is_face(c, l->generic->position[i]);
-}
 
 /* The nearer of what is met outwards and inwards; 0: nothing within the limit. */
 static int project(const laying *l, uint32_t i, const float direction[3], float out[3])
@@ -36,29 +32,43 @@ static int project(const laying *l, uint32_t i, const float direction[3], float 
     return 1;
 }
 
-static fap_err refine(laying *l)
+/* @seen: of the generic face; what is behind it, the inside of lips and lids, is behind the scan as well. */
+static void project_all(const laying *l, const cylinder *c, const uint8_t *seen, elastic_pull *pull)
 {
-    const fap_generic *g = l->generic;
-    const cylinder c = cylinder_around(g->position, g->vertex_count);
-    float(*to)[3] = fap_mem_calloc(l->alloc, g->vertex_count, sizeof *to);
-
-    if (!to)
-        return FAP_E_NOMEM;
-    surface_normals((const float(*)[3])l->at, g->vertex_count, g->triangle, g->triangle_count, l->normal);
-    for (uint32_t i = 0; i < g->vertex_count; i++) {
-        float direction[3];
-        memcpy(to[i], l->at[i], sizeof to[i]);
-        if (!is_face(l, &c, i))
+    for (uint32_t i = 0; i < l->generic->vertex_count; i++) {
+        float direction[3], to[3];
+        if (!seen[i] || !cylinder_is_face(c, l->generic->position[i]))
             continue;
         if (l->cfg->along_normals)
             memcpy(direction, l->normal[i], sizeof direction);
         else
-            cylinder_outwards(&c, l->at[i], direction);
-        project(l, i, direction, to[i]);
+            cylinder_outwards(c, l->at[i], direction);
+        if (!project(l, i, direction, to))
+            continue;
+        pull[i].weight = 1;
+        for (int a = 0; a < 3; a++) {
+            pull[i].to[a] = (double)to[a];
+            pull[i].normal[a] = (double)l->normal[i][a];
+        }
     }
-    memcpy(l->at, to, g->vertex_count * sizeof *to);
-    fap_mem_free(l->alloc, to);
-    return FAP_OK;
+}
+
+static fap_err refine(laying *l)
+{
+    const fap_generic *g = l->generic;
+    const cylinder c = cylinder_around(g->position, g->vertex_count);
+    uint8_t *seen = fap_mem_calloc(l->alloc, g->vertex_count, 1);
+    elastic_pull *pull = fap_mem_calloc(l->alloc, g->vertex_count, sizeof *pull);
+
+    fap_err err = seen && pull ? laying_find_seen(l, &c, seen) : FAP_E_NOMEM;
+    if (err == FAP_OK) {
+        surface_normals((const float(*)[3])l->at, g->vertex_count, g->triangle, g->triangle_count, l->normal);
+        project_all(l, &c, seen, pull);
+        err = laying_sew(l, pull);
+    }
+    fap_mem_free(l->alloc, seen);
+    fap_mem_free(l->alloc, pull);
+    return err;
 }
 
 fap_err laying_zhu(laying *l)
