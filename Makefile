@@ -53,7 +53,7 @@ EMBREE  := $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/n
 notest    = $(filter-out %_test.c,$(1))
 TABLES   := $(wildcard fap_tables/*.csv)
 GEN      := $(TABLES:fap_tables/%.csv=$(B)/gen/%.h)
-LIB_SRC  := $(call notest,$(wildcard lib/base/*.c lib/param/*.c lib/codec/*.c lib/bank/*.c lib/dsp/*.c lib/dsp/*/*.c))
+LIB_SRC  := $(call notest,$(wildcard lib/base/*.c lib/param/*.c lib/codec/*.c lib/bank/*.c lib/dsp/*.c lib/dsp/*/*.c lib/live/*.c))
 STUDIO_SRC := $(call notest,$(wildcard lib/take/*.c lib/capture/*.c lib/track/*.c lib/speech/*.c lib/shape/*.c lib/registration/*.c) \
               $(filter-out lib/surface/nearest_%,$(wildcard lib/surface/*.c)) lib/surface/nearest_$(if $(EMBREE),embree,none).c)
 COMMON_SRC := $(filter-out common/gpio/gpio_%,$(call notest,$(wildcard common/*.c common/*/*.c)))
