@@ -157,7 +157,7 @@ $(B)/replay/%: $(B)/tests/fuzz/%.o $(B)/tests/fuzz/replay.o $(B)/libfap-databank
 	$(call SAY,LD)
 	$(Q)$(LINK) $(ALL_LIBS)
 
-$(B)/fapenc $(B)/fapplay $(B)/fapplay-lines: $(if $(SAN),$(B)/tests/asan/dlclose.o)
+$(B)/fapenc $(B)/fapplay $(B)/fapbank $(B)/fapplay-lines: $(if $(SAN),$(B)/tests/asan/dlclose.o)
 # fapplay with lines that are files: tests/cli/window_lines.sh.
 $(B)/fapplay-lines: $(B)/player/main.o $(B)/tests/gpio/files.o $(B)/libfap-play.a $(B)/libfap-render.a $(filter-out $(B)/libfap-gpio-%,$(BASE))
 	$(call SAY,LD)

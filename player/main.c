@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /* fapplay: FAP to face. */
 #include "common/tool.h"
+#include "player/live/live.h"
 #include "player/options.h"
 #include "player/report.h"
 #include "player/run.h"
@@ -11,6 +12,8 @@ int main(int argc, char **argv)
     play_report report = { 0 };
 
     tool_name = "fapplay";
+    if (live_options_are(argc, argv))
+        return live_run(argc, argv);
     if (!play_options_parse(&opt, argc, argv))
         return opt.exit_status;
     tool_quiet = opt.quiet;

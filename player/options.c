@@ -412,6 +412,7 @@ enum {
 static const char help_text[] =
     "usage: fapplay STREAM [options]            in a window\n"
     "       fapplay STREAM -o OUT [options]     without one\n"
+    "       fapplay STREAM --send rtp://HOST:PORT, fapplay --listen rtp://HOST:PORT: fapplay --send --help\n"
     "Shows a stream of MPEG-4 face animation parameters on a face. STREAM is .fap or .fba, or - for standard "
     "input.\n"
     "\n"
