@@ -17,6 +17,7 @@
 #include <fap/fapu.h>
 #include <fap/fit.h>
 #include <fap/frame.h>
+#include <fap/rtp.h>
 #include <fap/sensitivity.h>
 #include <fap/tables.h>
 #include <fap/version.h>

@@ -18,7 +18,7 @@ static const char help[] =
     "\n"
     "  --send URL           to whom; STREAM is .fap or .fba and is coded anew, frame by frame\n"
     "  --max-error MM       how far off a feature point may be (0.5)\n"
-    "  --intra N            an I plane, with which listeners can begin, at least every N frames (50)\n"
+    "  --intra N            an I plane, with which listeners can begin, at least every N frames (a second)\n"
     "  --aggregate N        frames a packet, 1 to 16: fewer bytes, more delay and more at once when one is "
     "lost (1)\n"
     "  --redundancy WHEN    auto (while listeners report loss), always or never: the plane before is sent "
@@ -187,7 +187,7 @@ int live_options_parse(live_options *o, int argc, char **argv)
     *o = (live_options){ .max_error_mm = 0.5,
                          .aggregate = 1,
                          .redundancy = -1,
-                         .intra = 50,
+
                          .delay_ms = 60,
                          .exit_status = EXIT_USAGE };
     for (int i = 1; i < argc; i++) /* "--send --help" asks what --send is, and is no URL */

@@ -14,7 +14,8 @@ typedef struct live_options {
     const play_sink *sink;
     const struct csv_kind *csv;
     double max_error_mm, seconds; /* seconds: 0: until the stream ends, or for ever */
-    int aggregate, redundancy, intra, delay_ms, any_source, loop, json;
+    int intra;                    /* 0: one a second */
+    int aggregate, redundancy, delay_ms, any_source, loop, json;
     int exit_status; /* when parsing says to stop */
 } live_options;
 

@@ -57,7 +57,7 @@ static int open_encoder(sending *s)
     cfg.mode = FAP_ENCODE_ERROR;
     cfg.max_error_mm = s->o->max_error_mm;
     cfg.look_ahead = 0;
-    cfg.intra = s->o->intra;
+    cfg.intra = s->o->intra ? s->o->intra : (int)fmax(1, fmin(10000, s->scene.line.rate_hz + 0.5));
     cfg.skip = 0; /* a packet a frame: silence is loss */
     cfg.plane_codes = s->o->aggregate > 1;
     const fap_err err = fap_encoder_open(&s->encoder, &cfg);

@@ -96,6 +96,12 @@ double bench_loss_error_mm_0(void);
 double bench_loss_error_mm_5(void);
 double bench_loss_error_mm_10(void);
 double bench_loss_error_mm_20(void);
+double bench_rtp_kbps_on_wire(void);
+double bench_rtp_kbps_on_wire_aggregate_4(void);
+double bench_net_loss_error_mm_1(void);
+double bench_net_loss_error_mm_5(void);
+double bench_net_loss_error_mm_10(void);
+double bench_net_loss_error_mm_20(void);
 /* What a decoder with default options allocates. */
 double bench_decoder_state_bytes(void);
 double bench_libfap_text_bytes(void);
