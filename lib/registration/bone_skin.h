@@ -10,7 +10,7 @@
 #include "registration/control_mesh.h"
 
 /* At most this many bones carry one vertex; lighter ones are left out. */
-enum { BONE_SAYS = 10 };
+enum { BONE_SAYS = 8 };
 
 typedef struct bone_say {
     fap_bone_place place;

@@ -209,7 +209,8 @@ static double value_around(void *user, const double *x, double *gradient)
     (void)gradient;
     if (!move_point(f, x))
         return INFINITY;
-    double sum = net_value(f, (const double(*)[3])f->control, NULL);
+    double sum =
+        net_value(f, (const double(*)[3])f->control, NULL) + mesh_energy_pins(f->energy, carried(f), NULL);
     for (uint32_t i = 0; i < f->vertex_count; i++)
         sum += mesh_energy_vertex(f->energy, carried(f), f->vertex[i], NULL);
     for (uint32_t i = 0; i < f->edge_count; i++)

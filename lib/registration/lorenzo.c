@@ -21,14 +21,15 @@
 /* From stiff to loose; alpha is 1. All constants were found with tests/bench/registration.c. */
 static const struct stage {
     double strain, bend; /* beta, gamma */
+    double pin;          /* of landmarks: without them an open mouth shuts */
     double even;         /* of the net, see control_fit.h */
     double reach_share;  /* of the configuration's reach */
     double facing;
     int rounds, iterations; /* of looking for what is near; of L-BFGS a round */
 } stages[] = {
-    { 1.0, 20, 2, 1.0, 0.5, 3, 10 },
-    { 0.4, 8, 0.3, 0.6, 0.5, 3, 10 },
-    { 0.1, 3, 0.03, 0.4, 0.5, 3, 10 },
+    { 1.0, 20, 0.02, 2, 1.0, 0.5, 3, 10 },
+    { 0.4, 8, 0.02, 0.3, 0.6, 0.5, 3, 10 },
+    { 0.1, 3, 0.002, 0.03, 0.4, 0.5, 3, 10 },
 };
 enum { STAGES = sizeof stages / sizeof *stages, SIMPLEX_ROUNDS = 1 };
 
@@ -48,6 +49,7 @@ typedef struct lorenzo {
     float (*bent)[3];
     uint8_t *use;
     uint32_t *seed;
+    elastic_pin *pin; /* [pins] */
     cylinder axis;
     control_mesh mesh;
     bone_skin skin;
@@ -133,6 +135,23 @@ static void project_controls(lorenzo *z)
 
 /* --- the net --- */
 
+static void set_pins(lorenzo *z)
+{
+    const laying *l = z->l;
+
+    for (uint32_t i = 0; i < l->pin_count; i++) {
+        elastic_pin *p = &z->pin[i];
+        p->weight = l->pin[i].weight / (l->cfg->pin_error_mm * l->cfg->pin_error_mm);
+        for (int k = 0; k < 3; k++) {
+            p->vertex[k] = l->pin[i].vertex[k];
+            p->share[k] = l->pin[i].share[k];
+            p->to[k] = l->pin[i].at[k];
+        }
+    }
+    z->energy.pin = z->pin;
+    z->energy.pin_count = l->pin_count;
+}
+
 /* A landmark's vertex, and none twice. */
 static uint32_t find_seeds(lorenzo *z)
 {
@@ -172,6 +191,8 @@ static fap_err open_net(lorenzo *z)
     if (err == FAP_OK)
         err = mesh_energy_open(&z->energy, &z->face, l->alloc);
     if (err == FAP_OK)
+        set_pins(z);
+    if (err == FAP_OK)
         err = control_fit_open(&z->fit, &z->skin, &z->energy, g->position, l->cfg->optimizer, l->alloc);
     return err;
 }
@@ -184,7 +205,8 @@ static fap_err open(lorenzo *z)
     z->use = fap_mem_calloc(l->alloc, g->vertex_count, 1);
     z->bent = fap_mem_calloc(l->alloc, g->vertex_count, sizeof *z->bent);
     z->seed = fap_mem_calloc(l->alloc, l->pin_count, sizeof *z->seed);
-    if (!z->use || !z->bent || !z->seed)
+    z->pin = fap_mem_calloc(l->alloc, l->pin_count, sizeof *z->pin);
+    if (!z->use || !z->bent || !z->seed || !z->pin)
         return FAP_E_NOMEM;
     for (uint32_t v = 0; v < g->vertex_count; v++)
         z->use[v] = (uint8_t)laying_is_skin(l, v);
@@ -204,6 +226,7 @@ static void close(lorenzo *z)
     fap_mem_free(alloc, z->use);
     fap_mem_free(alloc, z->bent);
     fap_mem_free(alloc, z->seed);
+    fap_mem_free(alloc, z->pin);
 }
 
 /* --- the descent --- */
@@ -236,7 +259,8 @@ static fap_err run_stage(lorenzo *z, int stage)
     const int rounds = is_simplex ? SIMPLEX_ROUNDS : s->rounds;
     fap_err err = FAP_OK;
 
-    z->energy.weights = (energy_weights){ .dist = 1, .strain = s->strain, .bend = s->bend, .slide = slide };
+    z->energy.weights =
+        (energy_weights){ .dist = 1, .strain = s->strain, .bend = s->bend, .pin = s->pin, .slide = slide };
     z->fit.even = s->even;
     for (int round = 0; round < rounds && err == FAP_OK; round++) {
         look(z, s);

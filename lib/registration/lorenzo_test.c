@@ -136,6 +136,7 @@ typedef struct sheet {
     bone_skin skin;
     mesh_energy energy;
     control_fit fit;
+    elastic_pin pin;
     fap_allocator heap;
 } sheet;
 
@@ -187,6 +188,9 @@ static void open_sheet(sheet *s, uint32_t points, fap_optimizer optimizer)
         FAP_OK);
     s->energy.weights = (energy_weights){ .dist = 1, .strain = 0.5, .bend = 3, .slide = 0.1 };
     s->fit.even = 0.5;
+    s->pin =
+        (elastic_pin){ .vertex = { 3, 30, 31 }, .share = { 0.5, 0.3, 0.2 }, .to = { 9, 1, 2 }, .weight = 1 };
+    s->energy.pin = &s->pin;
 }
 
 static void close_sheet(sheet *s)
@@ -322,6 +326,8 @@ TEST(control_fit, the_gradient_is_what_differences_say)
     open_sheet(&s, 40, FAP_OPTIMIZER_LBFGS);
     plant(&s);
     back_to_rest(&s);
+    s.energy.pin_count = 1;
+    s.energy.weights.pin = 0.1;
     double *x = &s.fit.control[0][0], gradient[3 * 40], most = 0;
     for (int i = 0; i < 3 * 40; i++)
         x[i] += 0.7 * sin(5.0 * i); /* no bone is flat, and every term pulls */

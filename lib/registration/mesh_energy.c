@@ -126,12 +126,35 @@ double mesh_energy_edge(const mesh_energy *e, const float (*at)[3], uint32_t i, 
     return edge->vertex[3] == UINT32_MAX ? cost : cost + bend(e, at, edge, pull);
 }
 
-double mesh_energy_all(const mesh_energy *e, const float (*at)[3], double (*pull)[3])
+static double pin_cost(const elastic_pin *p, double by, const float (*at)[3], double (*pull)[3])
 {
     double sum = 0;
 
+    for (int a = 0; a < 3; a++) {
+        double off = -p->to[a];
+        for (int k = 0; k < 3; k++)
+            off += p->share[k] * (double)at[p->vertex[k]][a];
+        sum += by * off * off;
+        for (int k = 0; pull && k < 3; k++)
+            pull[p->vertex[k]][a] += 2 * by * p->share[k] * off;
+    }
+    return sum;
+}
+
+double mesh_energy_pins(const mesh_energy *e, const float (*at)[3], double (*pull)[3])
+{
+    double sum = 0;
+
+    for (uint32_t i = 0; i < e->pin_count; i++)
+        sum += pin_cost(&e->pin[i], e->weights.pin * e->pin[i].weight / e->pin_count, at, pull);
+    return sum;
+}
+
+double mesh_energy_all(const mesh_energy *e, const float (*at)[3], double (*pull)[3])
+{
     if (pull)
         memset(pull, 0, e->face->vertex_count * sizeof *pull);
+    double sum = mesh_energy_pins(e, at, pull);
     for (uint32_t v = 0; v < e->face->vertex_count; v++)
         sum += mesh_energy_vertex(e, at, v, pull);
     for (uint32_t i = 0; i < e->edge_count; i++)

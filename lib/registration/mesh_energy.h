@@ -11,6 +11,7 @@
 
 typedef struct energy_weights {
     double dist, strain, bend; /* alpha; beta: mm^2 of length; gamma: mm^2 at a cosine that is 1 off */
+    double pin;                /* ours: what landmarks may be off; a mean, as the others are */
     double slide;              /* share of the distance that counts across the scan's normal */
 } energy_weights;
 
@@ -27,15 +28,18 @@ typedef struct mesh_energy {
     energy_edge *edge;
     uint32_t *start, *around; /* edges whose cost a vertex changes */
     elastic_pull *pull;       /* [vertex_count] the scan's; the caller fills it */
+    const elastic_pin *pin;   /* borrowed; the caller sets them */
+    uint32_t pin_count;
 } mesh_energy;
 
 /* As @p face is: nothing is strained or bent. FAP_E_NOMEM. mesh_energy_close() in any case. */
 fap_err mesh_energy_open(mesh_energy *e, const control_face *face, const fap_allocator *alloc);
 void mesh_energy_close(mesh_energy *e, const fap_allocator *alloc);
 
-/* One term of it; @p pull (NULL: not asked for) gains its gradient. */
+/* Terms of it; @p pull (NULL: not asked for) gains its gradient. */
 double mesh_energy_vertex(const mesh_energy *e, const float (*at)[3], uint32_t vertex, double (*pull)[3]);
 double mesh_energy_edge(const mesh_energy *e, const float (*at)[3], uint32_t edge, double (*pull)[3]);
+double mesh_energy_pins(const mesh_energy *e, const float (*at)[3], double (*pull)[3]);
 /* All of it; @p pull is set, not added to. */
 double mesh_energy_all(const mesh_energy *e, const float (*at)[3], double (*pull)[3]);
 
