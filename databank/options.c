@@ -18,6 +18,7 @@ static const char usage[] =
     "       fapbank fat B.fbank -o B.fat       face animation tables for the smallest clients\n"
     "       fapbank fit SCAN --landmarks P.csv -o B.fbank   a face onto a scan; fapbank fit --help\n"
     "       fapbank pick SCAN -o P.csv         landmarks of a scan, by hand; fapbank pick --help\n"
+    "       fapbank masks FACE --landmarks P.csv -o M.csv   lips and lids of any face; fapbank masks --help\n"
     "       fapbank retarget B.fbank --to FACE.obj -o B2.fbank   motions on another face; fapbank retarget "
     "--help\n"
     "       fapbank pca B.fbank -o B2.fbank    the bank with principal components of its key models\n"

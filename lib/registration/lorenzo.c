@@ -60,47 +60,6 @@ typedef struct lorenzo {
 
 /* --- the start: landmarks, then a cylindrical projection --- */
 
-static void bend_face(lorenzo *z, const warp *w)
-{
-    for (uint32_t i = 0; i < z->l->generic->vertex_count; i++) {
-        double at[3], moved[3];
-        for (int a = 0; a < 3; a++)
-            at[a] = (double)z->l->generic->position[i][a];
-        warp_move(w, at, moved);
-        for (int a = 0; a < 3; a++)
-            z->l->at[i][a] = (float)(at[a] + moved[a]);
-    }
-}
-
-static fap_err bend_space(lorenzo *z)
-{
-    laying *l = z->l;
-    double(*centre)[3] = fap_mem_calloc(l->alloc, l->pin_count, sizeof *centre);
-    double(*move)[3] = fap_mem_calloc(l->alloc, l->pin_count, sizeof *move);
-    uint32_t n = 0;
-    warp w;
-
-    for (uint32_t i = 0; centre && move && i < l->pin_count; i++) {
-        if (l->pin[i].weight <= 0)
-            continue;
-        laying_pin_place(&l->pin[i], l->generic->position, centre[n]);
-        for (int a = 0; a < 3; a++)
-            move[n][a] = l->pin[i].at[a] - centre[n][a];
-        n++;
-    }
-    fap_err err = centre && move ? FAP_OK : FAP_E_NOMEM;
-    if (err == FAP_OK)
-        err = warp_open(&w, WARP_BIHARMONIC, (const double(*)[3])centre, (const double(*)[3])move, NULL, n,
-                        slack_per_mm2 * l->cfg->pin_error_mm * l->cfg->pin_error_mm, l->alloc);
-    if (err == FAP_OK) {
-        bend_face(z, &w);
-        warp_close(&w, l->alloc);
-    }
-    fap_mem_free(l->alloc, centre);
-    fap_mem_free(l->alloc, move);
-    return err == FAP_E_DATA ? FAP_OK : err; /* too few landmarks to bend anything */
-}
-
 /* The nearer of what is met outwards and inwards, where that is the same side of the same thing. */
 static int meet_scan(const lorenzo *z, uint32_t v, float at[3])
 {
@@ -303,7 +262,7 @@ fap_err laying_lorenzo(laying *l)
         return laying_fail(l, FAP_E_ARG, "no such number of control points, or no such optimizer");
     fap_err err = open(&z);
     if (err == FAP_OK)
-        err = bend_space(&z);
+        err = laying_bend(l, WARP_BIHARMONIC, slack_per_mm2 * l->cfg->pin_error_mm * l->cfg->pin_error_mm);
     if (err == FAP_OK)
         err = open_net(&z);
     if (err == FAP_OK)
