@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
  * --method yano: a template in the plane of a range image, as Yano & Harada 2009 have it, section 3.1. The front of the generic face,
- * unrolled, is the template; a thin plate through the landmarks lays it over the image, exactly; each vertex takes the place that the
- * image has there. Two things are ours. Any scan is made an image, unrolled about the head, where it is none. And what the template
+ * unrolled, is the template; a thin plate through the landmarks lays it over the image; each vertex takes the place that the image
+ * has there. Three things are ours. The plate may stay off landmarks by what they are off themselves; with --pin-error 0.01 it meets
+ * them, as the paper's does. Any scan is made an image, unrolled about the head, where it is none. And what the template
  * does not have (ears and the back of the head, the inside of lips and nostrils) or the image does not show goes where space is bent
  * to by the landmarks, drawn to the sampled skin at the seam.
  */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 /*
- * Any text as a recipe of fapbank. Whatever file it names, it gets a small mesh or a small motion; a bank that
+ * Any text as a recipe of fapbank. Whatever file it names, it gets a small mesh, a small motion or a few landmarks; a bank that
  * it makes must be written and load again, or be refused.
  */
 #include <stdint.h>
@@ -20,6 +20,7 @@ static void check(int true_or_bug)
 /* A pyramid of two groups, its tip moved where the file's name is long. */
 static const char mesh[] = "v 0 0 0\nv 60 0 0\nv 60 50 0\nv 0 50 0\nv 30 25 %d\nvt 0 0\nvt 1 1\n"
                            "g face\nf 1/1 2/2 5/1\nf 2 3 5\ng eye\nf 3 4 5\nf 4 1 5\n";
+static const char landmarks[] = "8.3,0\n8.4,1\n9.3,4\n2.1,2\n";
 static const char motion[] = "4 0 0.1 -0.2\n0 1 0 0\n";
 
 static uint8_t *copy(const char *text, size_t *size)
@@ -36,7 +37,7 @@ static fap_err read_any(void *user, const char *name, uint8_t **data, size_t *si
     (void)user;
     if (strlen(name) > 40)
         return FAP_E_IO;
-    *data = copy(strstr(name, ".target") ? motion : mesh, size);
+    *data = copy(strstr(name, ".target") ? motion : strstr(name, ".csv") ? landmarks : mesh, size);
     char *depth = strstr((char *)*data, "%d");
     if (depth)
         memcpy(depth, strlen(name) > 6 ? "30" : "20", 2);
