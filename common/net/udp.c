@@ -69,6 +69,12 @@ static in_port_t *port_of(const udp_address *a)
                                        : &((struct sockaddr_in *)(uintptr_t)&a->to)->sin_port;
 }
 
+void udp_address_host(const udp_address *a, char *out, size_t room)
+{
+    if (getnameinfo((const struct sockaddr *)&a->to, a->size, out, (socklen_t)room, NULL, 0, NI_NUMERICHOST))
+        *out = '\0';
+}
+
 int udp_address_port(const udp_address *a)
 {
     return ntohs(*port_of(a));

@@ -20,6 +20,8 @@ typedef struct udp_address {
  */
 int udp_address_parse(udp_address *out, const char *url, const char *scheme, fault *f);
 /* The same host, another port. */
+/* The host as numbers; FAP_SDP_HOST_SIZE bytes are enough. */
+void udp_address_host(const udp_address *a, char *out, size_t room);
 int udp_address_port(const udp_address *a);
 void udp_address_set_port(udp_address *a, int port);
 /* A number of it: the same for the same host and port, hardly ever for another. */

@@ -18,6 +18,7 @@
 #include <fap/fit.h>
 #include <fap/frame.h>
 #include <fap/rtp.h>
+#include <fap/sdp.h>
 #include <fap/sensitivity.h>
 #include <fap/tables.h>
 #include <fap/version.h>

@@ -4,8 +4,8 @@
  * RFC 3550; the payload is that of MPEG-4 visual streams, RFC 6416, with one run of whole planes a packet; a repeated plane is RFC
  * 2198's redundant block.
  *
- * Why not a library: oRTP is AGPL, ccRTP is C++ under the GPL, and those that are free for anybody bring sockets, an event loop or
- * an allocation a packet; of a client that decodes faces in 64 KiB, RTP's twelve bytes are not what should need them.
+ * Why not a library: oRTP and ccRTP are under the GPL, and those that are free for anybody bring sockets, an event loop or an
+ * allocation a packet; of a client that decodes faces in 64 KiB, RTP's twelve bytes are not what should need them.
  */
 #ifndef FAP_RTP_H
 #define FAP_RTP_H
@@ -101,7 +101,9 @@ typedef struct fap_rtp_receiver fap_rtp_receiver;
 /** Start from fap_rtp_receiver_config_init(). */
 typedef struct fap_rtp_receiver_config {
     size_t struct_size;
-    uint32_t ssrc;      /**< our own, in reports */
+    uint32_t ssrc; /**< our own, in reports */
+    uint8_t payload_type,
+        redundant_type; /**< FAP_RTP_PAYLOAD, FAP_RTP_REDUNDANT: what an SDP may say otherwise */
     int delay_ms;       /**< 60; how long packets wait for those that are late, to begin with */
     int least_delay_ms; /**< 20; it follows the jitter, ... */
     int most_delay_ms;  /**< 400; ... between these */

@@ -72,6 +72,8 @@ struct fap_rtp_receiver {
 void fap_rtp_receiver_config_init(fap_rtp_receiver_config *cfg)
 {
     *cfg = (fap_rtp_receiver_config){ .struct_size = sizeof *cfg,
+                                      .payload_type = FAP_RTP_PAYLOAD,
+                                      .redundant_type = FAP_RTP_REDUNDANT,
                                       .delay_ms = 60,
                                       .least_delay_ms = 20,
                                       .most_delay_ms = 400,
@@ -248,7 +250,8 @@ static fap_err take(fap_rtp_receiver *r, const fap_rtp_packet *p, int64_t now_us
                   media = us_of(ticks);
     rtp_redundant both = { .now = p->payload, .now_size = p->size };
 
-    if (p->payload_type == FAP_RTP_REDUNDANT && !rtp_redundant_parse(&both, p->payload, p->size)) {
+    if (p->payload_type == r->cfg.redundant_type &&
+        !rtp_redundant_parse(&both, p->payload, p->size, r->cfg.payload_type)) {
         r->stats.malformed++;
         return FAP_E_DATA;
     }
@@ -280,7 +283,7 @@ fap_err fap_rtp_receiver_put(fap_rtp_receiver *r, uint64_t source, const void *d
     fap_rtp_packet p;
 
     if (fap_rtp_parse(&p, data, size) != FAP_OK ||
-        (p.payload_type != FAP_RTP_PAYLOAD && p.payload_type != FAP_RTP_REDUNDANT)) {
+        (p.payload_type != r->cfg.payload_type && p.payload_type != r->cfg.redundant_type)) {
         r->stats.malformed++;
         return FAP_E_DATA;
     }

@@ -71,10 +71,9 @@ size_t rtp_redundant_write(const rtp_redundant *r, uint8_t *out, size_t room)
     return size;
 }
 
-int rtp_redundant_parse(rtp_redundant *r, const uint8_t *payload, size_t size)
+int rtp_redundant_parse(rtp_redundant *r, const uint8_t *payload, size_t size, int type)
 {
-    if (size < REDUNDANT_HEADER || !(payload[0] & 0x80) || payload[4] & 0x80 ||
-        (payload[0] & 0x7f) != FAP_RTP_PAYLOAD || payload[4] != FAP_RTP_PAYLOAD)
+    if (size < REDUNDANT_HEADER || payload[0] != (0x80 | type) || payload[4] != type)
         return 0;
     *r = (rtp_redundant){ .before = payload + REDUNDANT_HEADER,
                           .before_size = (size_t)(payload[2] & 3) << 8 | payload[3],

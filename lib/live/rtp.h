@@ -38,7 +38,7 @@ typedef struct rtp_redundant {
 
 /* 0: more than @p room, or it cannot be said. */
 size_t rtp_redundant_write(const rtp_redundant *r, uint8_t *out, size_t room);
-/* 0: malformed. */
-int rtp_redundant_parse(rtp_redundant *r, const uint8_t *payload, size_t size);
+/* @p type: of both planes. 0: malformed. */
+int rtp_redundant_parse(rtp_redundant *r, const uint8_t *payload, size_t size, int type);
 
 #endif

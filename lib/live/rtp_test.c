@@ -67,11 +67,11 @@ TEST(rtp, a_redundant_payload_that_is_cut_is_refused)
     uint8_t bytes[32];
 
     assert_int_equal(rtp_redundant_write(&in, bytes, sizeof bytes), 14);
-    assert_true(rtp_redundant_parse(&out, bytes, 14));
+    assert_true(rtp_redundant_parse(&out, bytes, 14, 96));
     assert_true(out.offset == 3600 && out.before_size == 6 && out.now_size == 3);
     assert_memory_equal(out.now, b, 3);
     for (size_t n = 0; n < 11; n++)
-        assert_false(rtp_redundant_parse(&out, bytes, n));
+        assert_false(rtp_redundant_parse(&out, bytes, n, 96));
     assert_int_equal(rtp_redundant_write(&(rtp_redundant){ a, b, 6, 3, 16384 }, bytes, sizeof bytes), 0);
 }
 

@@ -3,6 +3,7 @@
  * live_listen(): packets come in, wait their time, are decoded and posed. What is lost is a call of the decoder without data: the
  * face goes on as it moved, eases to rest, and is exact again with the next I plane.
  */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,14 +14,16 @@
 #include <fap/decoder.h>
 #include <fap/derive.h>
 #include <fap/rtp.h>
+#include <fap/sdp.h>
 
+#include "common/file.h"
 #include "common/json.h"
 #include "common/net/udp.h"
 #include "common/tool.h"
 #include "player/live/live.h"
 #include "player/scene.h"
 
-enum { REPORT_US = 5000000, QUIET_US = 1000000 };
+enum { REPORT_US = 5000000, QUIET_US = 1000000, MOST_SDP = 1 << 16 };
 static const double usual_rate_hz = 25;
 
 typedef struct listening {
@@ -34,6 +37,7 @@ typedef struct listening {
     sink_setup setup;
     int socket, report_socket;
     udp_address at;
+    fap_sdp sdp; /* all 0: there is none */
     int64_t begin_us, reported_us, packet_us, number, concealed;
     double rate_hz;
     int no_signal; /* that has been said */
@@ -41,11 +45,37 @@ typedef struct listening {
 
 /* --- to begin with --- */
 
+/* An URL, or a description's file: what it says of the stream is kept. */
+static int find_address(listening *l)
+{
+    char where[FAP_ERROR_TEXT_SIZE] = "", url[FAP_SDP_HOST_SIZE + 32];
+    const char *dot = strrchr(l->o->listen, '.');
+    uint8_t *data;
+    size_t size;
+
+    if (!dot || strcmp(dot, ".sdp") != 0)
+        return udp_address_parse(&l->at, l->o->listen, "rtp", l->f);
+    errno = 0;
+    fap_err err = file_read(l->o->listen, MOST_SDP, &data, &size);
+    if (err == FAP_OK) {
+        err = fap_sdp_read(&l->sdp, data, size, where);
+        free(data);
+    }
+    if (err != FAP_OK)
+        return fault_set(l->f, EXIT_DATA, "%s: %s", l->o->listen,
+                         *where                     ? where
+                         : err == FAP_E_IO && errno ? strerror(errno)
+                                                    : fap_strerror(err));
+    snprintf(url, sizeof url, strchr(l->sdp.host, ':') ? "rtp://[%s]:%u" : "rtp://%s:%u", l->sdp.host,
+             l->sdp.port);
+    return udp_address_parse(&l->at, url, "rtp", l->f);
+}
+
 static int open_sockets(listening *l)
 {
     udp_address reports;
 
-    if (!udp_address_parse(&l->at, l->o->listen, "rtp", l->f))
+    if (!find_address(l))
         return 0;
     reports = l->at;
     udp_address_set_port(&reports, udp_address_port(&l->at) + 1);
@@ -64,6 +94,10 @@ static int open_rtp(listening *l)
         return fault_set(l->f, EXIT_DATA, "no random numbers from the system");
     cfg.delay_ms = l->o->delay_ms;
     cfg.any_source = l->o->any_source;
+    if (l->sdp.payload_type) {
+        cfg.payload_type = l->sdp.payload_type;
+        cfg.redundant_type = l->sdp.redundant_type ? l->sdp.redundant_type : l->sdp.payload_type;
+    }
     return (fap_rtp_receiver_open(&l->rtp, &cfg) == FAP_OK &&
             fap_decoder_open(&l->decoder, NULL) == FAP_OK) ||
            fault_set(l->f, EXIT_DATA, "out of memory");

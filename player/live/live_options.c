@@ -24,8 +24,10 @@ static const char help[] =
     "  --redundancy WHEN    auto (while listeners report loss), always or never: the plane before is sent "
     "again\n"
     "  --loop               begin again at the end\n"
+    "  --sdp FILE.sdp       writes a description of the stream, for listeners\n"
     "\n"
-    "  --listen URL         where; the first source to send three good packets is listened to, no other\n"
+    "  --listen URL         where, or the FILE.sdp of a description; the first source to send three good "
+    "packets is listened to, no other\n"
     "  -o, --output OUT     null (the default), NAME.csv or - : a table of every frame, --csv KIND as of "
     "fapplay\n"
     "  --bank B.fbank       the face\n"
@@ -48,6 +50,7 @@ enum {
     OPT_AGGREGATE,
     OPT_REDUNDANCY,
     OPT_LOOP,
+    OPT_SDP,
     OPT_BANK,
     OPT_CSV,
     OPT_DELAY,
@@ -66,6 +69,7 @@ static const struct option long_options[] = {
     { "intra", required_argument, NULL, OPT_INTRA },
     { "aggregate", required_argument, NULL, OPT_AGGREGATE },
     { "redundancy", required_argument, NULL, OPT_REDUNDANCY },
+    { "sdp", required_argument, NULL, OPT_SDP },
     { "loop", no_argument, NULL, OPT_LOOP },
     { "bank", required_argument, NULL, OPT_BANK },
     { "csv", required_argument, NULL, OPT_CSV },
@@ -138,6 +142,7 @@ static int take_option(live_options *o, int c, const char *arg)
     case OPT_INTRA: return integer("intra", arg, 1, 10000, &o->intra);
     case OPT_AGGREGATE: return integer("aggregate", arg, 1, 16, &o->aggregate);
     case OPT_REDUNDANCY: return take_redundancy(o, arg);
+    case OPT_SDP: o->sdp = arg; return 1;
     case OPT_LOOP: o->loop = 1; return 1;
     case OPT_BANK: o->bank = arg; return 1;
     case OPT_CSV: return take_csv(o, arg);
@@ -171,6 +176,8 @@ static int check(live_options *o)
         tool_error("what to send? fapplay STREAM --send %s", o->send);
     else if (o->listen && o->stream)
         tool_error("--listen plays what comes, not %s", o->stream);
+    else if (o->listen && o->sdp)
+        tool_error("--sdp belongs to --send; --listen FILE.sdp reads one");
     else if (o->send && o->output)
         tool_error("-o belongs to --listen");
     else if (o->json && o->output && !strcmp(o->output, "-"))

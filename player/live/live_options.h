@@ -7,8 +7,9 @@
 #include "player/sinks/sink.h"
 
 typedef struct live_options {
-    const char *send, *listen; /* an URL; one of both */
+    const char *send, *listen; /* an URL; one of both. listen: or a description's file */
     const char *stream;        /* to send */
+    const char *sdp;           /* of send: a description to be written; NULL: none */
     const char *output;        /* of listen; NULL: null */
     const char *bank;
     const play_sink *sink;

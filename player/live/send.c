@@ -3,6 +3,7 @@
  * live_send(): the stream's frames are coded anew with no look-ahead and leave when they are due. Reports go out every five
  * seconds, to the port above (RFC 3550 section 11), and what listeners answer there switches repeating on and off.
  */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,14 +14,16 @@
 
 #include <fap/encoder.h>
 #include <fap/rtp.h>
+#include <fap/sdp.h>
 
+#include "common/file.h"
 #include "common/json.h"
 #include "common/net/udp.h"
 #include "common/tool.h"
 #include "player/live/live.h"
 #include "player/scene.h"
 
-enum { REPORT_US = 5000000, HEADERS_UDP_IP = 28 };
+enum { REPORT_US = 5000000, HEADERS_UDP_IP = 28, SIMPLE_FACE_LEVEL_1 = 0x61 };
 
 typedef struct sending {
     const live_options *o;
@@ -33,6 +36,7 @@ typedef struct sending {
     size_t room;
     udp_address to, reports_to;
     int socket;
+    uint32_t ssrc;
     int64_t begin_us, reported_us;
     int64_t frames;
 } sending;
@@ -76,12 +80,43 @@ static int open_rtp(sending *s)
     if (getrandom(dice, sizeof dice, 0) != (ssize_t)sizeof dice)
         return fault_set(s->f, EXIT_DATA, "no random numbers from the system");
     fap_rtp_sender_config_init(&cfg);
-    cfg.ssrc = dice[0];
+    cfg.ssrc = s->ssrc = dice[0];
     cfg.first_timestamp = dice[1];
     cfg.first_sequence = (uint16_t)dice[2];
     cfg.aggregate = s->o->aggregate;
     cfg.redundancy = s->o->redundancy;
     return fap_rtp_sender_open(&s->rtp, &cfg) == FAP_OK || fault_set(s->f, EXIT_DATA, "out of memory");
+}
+
+/* The description is there before the first packet, whole or not at all. */
+static int write_sdp(sending *s)
+{
+    fap_sdp sdp = { .port = (uint16_t)udp_address_port(&s->to),
+                    .session = s->ssrc,
+                    .payload_type = FAP_RTP_PAYLOAD,
+                    .redundant_type = s->o->redundancy ? FAP_RTP_REDUNDANT : 0,
+                    .clock_hz = FAP_RTP_CLOCK_HZ,
+                    .profile_level = SIMPLE_FACE_LEVEL_1 };
+    char text[FAP_SDP_MAX_SIZE];
+    out_file out;
+
+    if (!s->o->sdp)
+        return 1;
+    udp_address_host(&s->to, sdp.host, sizeof sdp.host);
+    const size_t size = fap_sdp_write(&sdp, text, sizeof text);
+    if (!size)
+        return fault_set(s->f, EXIT_DATA, "%s: its address cannot be described", s->o->send);
+    errno = 0;
+    fap_err err = out_file_open(&out, s->o->sdp);
+    if (err == FAP_OK) {
+        err = fwrite(text, 1, size, out.stream) == size ? FAP_OK : FAP_E_IO;
+        if (err == FAP_OK)
+            err = out_file_commit(&out);
+        else
+            out_file_abandon(&out);
+    }
+    return err == FAP_OK ||
+           fault_set(s->f, EXIT_DATA, "%s: %s", s->o->sdp, errno ? strerror(errno) : fap_strerror(err));
 }
 
 static int open_all(sending *s)
@@ -96,7 +131,7 @@ static int open_all(sending *s)
         return 0;
     }
     s->socket = udp_open_sending(&s->to, s->o->send, s->f);
-    return s->socket >= 0 && open_encoder(s) && open_rtp(s);
+    return s->socket >= 0 && open_encoder(s) && open_rtp(s) && write_sdp(s);
 }
 
 /* --- on the way --- */

@@ -125,7 +125,7 @@ const bench_figure bench_figures[] = {
     { "loss_error_mm_10", "mm", bench_loss_error_mm_10, "the same, 10 %", "a take" },
     { "loss_error_mm_20", "mm", bench_loss_error_mm_20, "the same, 20 %", "a take" },
     { "rtp_kbps_on_wire", "kbit/s", bench_rtp_kbps_on_wire,
-      "0.5 mm, no look-ahead, a packet a frame at the take's rate, IPv4, UDP and RTP headers counted; median",
+      "0.5 mm, no look-ahead, 25 fps, a packet a frame, IPv4, UDP and RTP headers counted; median",
       "a take" },
     { "rtp_kbps_on_wire_aggregate_4", "kbit/s", bench_rtp_kbps_on_wire_aggregate_4,
       "the same, four frames a packet", "a take" },

@@ -41,6 +41,20 @@ is "$(number "$T/send.json" kbps_on_wire) < 40"
 grep -q 'no signal' "$T/listen.err" || fail "silence was not told"
 [ "$(wc -l <"$T/heard.csv")" -gt 40 ] || fail "little was played"
 
+# A description says where, and of what type packets are.
+"$B/fapplay" tests/assets/moments.fap --send "$url" --sdp "$T/face.sdp" --seconds 0.1 --quiet
+grep -q "m=video $port RTP/AVP 96 97" "$T/face.sdp" || fail "$(cat "$T/face.sdp")"
+"$B/fapplay" --listen "$T/face.sdp" --bank builtin --seconds 2 --json >"$T/listen.json" 2>"$T/listen.err" &
+listener=$!
+sleep 0.5
+"$B/fapplay" tests/assets/moments.fap --send "$url" --loop --seconds 1 --redundancy always --quiet
+wait $listener || fail "the listener gave $?: $(cat "$T/listen.err")"
+is "$(number "$T/listen.json" packets) > 15"
+sed 's/MP4V-ES/H264/' "$T/face.sdp" >"$T/other.sdp"
+expect 1 "$B/fapplay" --listen "$T/other.sdp"
+says 'MP4V-ES'
+expect 1 "$B/fapplay" --listen "$T/none.sdp"
+
 # Garbage at full speed, and a stranger who speaks RTP: the stream plays on.
 listen --seconds 4 -o null
 "$B/fapplay" tests/assets/moments.fap --send "$url" --loop --seconds 3 --aggregate 2 --quiet &
