@@ -27,9 +27,9 @@ static const struct stage {
     double facing;
     int rounds, iterations; /* of looking for what is near; of L-BFGS a round */
 } stages[] = {
-    { 1.0, 20, 0.02, 2, 1.0, 0.5, 3, 10 },
-    { 0.4, 8, 0.02, 0.3, 0.6, 0.5, 3, 10 },
-    { 0.1, 3, 0.002, 0.03, 0.4, 0.5, 3, 10 },
+    { 1.0, 20, 0.005, 2, 1.0, 0.5, 3, 10 },
+    { 0.4, 8, 0.005, 0.3, 0.6, 0.5, 3, 10 },
+    { 0.1, 3, 0.0005, 0.03, 0.4, 0.5, 3, 10 },
 };
 enum { STAGES = sizeof stages / sizeof *stages, SIMPLEX_ROUNDS = 1 };
 
